@@ -1,0 +1,57 @@
+# How every target of our own is made: one set of warnings, all of them errors, and the same
+# floating-point rules everywhere, because the same events must give the same poses bit for bit.
+
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -g -DNDEBUG")
+set(CMAKE_C_FLAGS_RELEASE "-O3 -g -DNDEBUG")
+
+add_library(pursuit_options INTERFACE)
+target_compile_options(pursuit_options INTERFACE -ffp-contract=off)
+target_include_directories(pursuit_options INTERFACE ${CMAKE_SOURCE_DIR})
+if(PURSUIT_SANITIZE)
+    target_compile_options(pursuit_options INTERFACE -fsanitize=${PURSUIT_SANITIZE}
+                           -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(pursuit_options INTERFACE -fsanitize=${PURSUIT_SANITIZE})
+endif()
+
+add_library(pursuit_warnings INTERFACE)
+target_compile_options(pursuit_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                       -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+                       # gcc 12 reports const char* + std::string&& wrongly (its bug 105651).
+                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+
+find_program(MOLD_PATH NAMES mold)
+if(MOLD_PATH)
+    add_link_options(-fuse-ld=mold)
+endif()
+
+find_program(CCACHE_PATH NAMES ccache)
+if(CCACHE_PATH)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PATH})
+endif()
+
+# pursuit_library(NAME SOURCES a.cpp … [LIBRARIES x …]): a static library of our own code.
+function(pursuit_library name)
+    cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+    add_library(${name} STATIC ${arg_SOURCES})
+    target_link_libraries(${name} PUBLIC pursuit_options ${arg_LIBRARIES} PRIVATE pursuit_warnings)
+endfunction()
+
+# pursuit_executable(NAME SOURCES … [LIBRARIES …]): a program; lands in build/<preset>/bin.
+function(pursuit_executable name)
+    cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+    add_executable(${name} ${arg_SOURCES})
+    target_link_libraries(${name} PRIVATE pursuit_options pursuit_warnings ${arg_LIBRARIES})
+endfunction()
+
+# pursuit_test(NAME SOURCES … [LIBRARIES …] [LABELS …]): a GoogleTest program, one ctest entry.
+function(pursuit_test name)
+    cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+    pursuit_executable(${name} SOURCES ${arg_SOURCES}
+                       LIBRARIES ${arg_LIBRARIES} GTest::gmock GTest::gtest_main)
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+    if(NOT arg_LABELS)
+        set(arg_LABELS unit)
+    endif()
+    add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+    set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}")
+endfunction()

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace pursuit {
+
+/// One brightness change at one pixel.
+struct Event {
+    std::int64_t t_us;      ///< Sensor time, µs; unwrapped and never decreasing after the decoder.
+    std::uint16_t x;        ///< Pixel, to the right, 0 … width-1.
+    std::uint16_t y;        ///< Pixel, downwards, 0 … height-1.
+    std::uint8_t polarity;  ///< 1 brighter (ON), 0 darker (OFF).
+
+    friend bool operator==(const Event&, const Event&) = default;
+};
+
+/// The pixel array, px.
+struct Geometry {
+    std::uint16_t width = 0;
+    std::uint16_t height = 0;
+
+    friend bool operator==(const Geometry&, const Geometry&) = default;
+};
+
+}  // namespace pursuit
