@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include "services/common/topics.hpp"
+
+namespace pursuit {
+
+/// A generated type support that survives what comes from the network. The generated code lets
+/// exceptions of a malformed sample escape into the middleware's receiving thread, which ends the
+/// process; here such a sample is refused and counted. Threads: as the generated type.
+template <class T>
+class GuardedType : public Wire<T>::Support {
+ public:
+    explicit GuardedType(std::shared_ptr<std::atomic<std::uint64_t>> malformed)
+        : malformed_(std::move(malformed)) {
+        // Announced type objects stop other vendors' participants from matching.
+        this->auto_fill_type_information(false);
+        this->auto_fill_type_object(false);
+    }
+
+    bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override {
+        // Encapsulation {0,0} is big-endian, {0,1} little-endian plain CDR; nothing else is ours.
+        bool good = payload->length >= 4 && payload->data[0] == 0 && payload->data[1] <= 1;
+        if (good) {
+            try {
+                good = Wire<T>::Support::deserialize(payload, data) &&
+                       Wire<T>::in_bounds(*static_cast<T*>(data));
+            } catch (...) {  // whatever it was, the sample is refused and counted below
+                good = false;
+            }
+        }
+        if (!good) malformed_->fetch_add(1, std::memory_order_relaxed);
+        return good;
+    }
+
+ private:
+    std::shared_ptr<std::atomic<std::uint64_t>> malformed_;
+};
+
+}  // namespace pursuit

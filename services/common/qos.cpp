@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/common/qos.hpp"
+
+#include <string_view>
+
+#include "services/common/topics.hpp"
+
+namespace pursuit {
+
+namespace dds = eprosima::fastdds::dds;
+
+namespace {
+
+struct FlowQos {
+    int depth;
+    bool latched;
+    eprosima::fastrtps::rtps::MemoryManagementPolicy_t memory;
+};
+
+FlowQos qos_of(Flow flow) {
+    using namespace eprosima::fastrtps::rtps;
+    switch (flow) {
+        case Flow::events:
+            return {64, false, PREALLOCATED_WITH_REALLOC_MEMORY_MODE};
+        case Flow::poses:
+            return {16, false, PREALLOCATED_WITH_REALLOC_MEMORY_MODE};
+        case Flow::latched:
+            return {1, true, PREALLOCATED_WITH_REALLOC_MEMORY_MODE};
+        case Flow::calls:
+            break;
+    }
+    // Replies differ much in size: a model of 4096 points beside a single word.
+    return {128, false, DYNAMIC_RESERVE_MEMORY_MODE};
+}
+
+template <class Qos>
+void apply(Qos& qos, const FlowQos& flow) {
+    qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+    qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+    qos.history().depth = flow.depth;
+    qos.durability().kind =
+        flow.latched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+    qos.endpoint().history_memory_policy = flow.memory;
+    // Keyed topics: at most this many objects or services at once.
+    qos.resource_limits().max_instances = 1024;
+    qos.resource_limits().max_samples_per_instance = flow.depth;
+    qos.resource_limits().max_samples = 1024 * flow.depth;
+    qos.resource_limits().allocated_samples = flow.depth;
+}
+
+}  // namespace
+
+Flow flow_of(const char* topic_name) {
+    const std::string_view name = topic_name;
+    if (name == topic::events || name == topic::exposures || name == topic::pose_tracks) {
+        return Flow::events;
+    }
+    if (name == topic::poses) return Flow::poses;
+    if (name.ends_with("/request") || name.ends_with("/reply")) return Flow::calls;
+    return Flow::latched;
+}
+
+dds::DataWriterQos writer_qos(Flow flow, std::uint32_t heartbeat_ms) {
+    dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
+    apply(qos, qos_of(flow));
+    qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
+    const auto period_ns = heartbeat_ms * 1'000'000ULL;
+    auto& times = qos.reliable_writer_qos().times;
+    times.heartbeatPeriod = {static_cast<std::int32_t>(period_ns / 1'000'000'000ULL),
+                             static_cast<std::uint32_t>(period_ns % 1'000'000'000ULL)};
+    return qos;
+}
+
+dds::DataReaderQos reader_qos(Flow flow) {
+    dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
+    apply(qos, qos_of(flow));
+    return qos;
+}
+
+}  // namespace pursuit

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "services/common/reader.hpp"
+#include "services/common/request_id.hpp"
+#include "services/common/writer.hpp"
+
+namespace pursuit {
+
+/// Calls a service and waits for its reply. Threads: call() from any, several at once.
+template <class Request, class Reply>
+class RequestClient {
+ public:
+    static Result<std::unique_ptr<RequestClient>> create(Participant& participant,
+                                                         const char* request_topic,
+                                                         const char* reply_topic,
+                                                         std::string instance) {
+        std::unique_ptr<RequestClient> self(new RequestClient(std::move(instance), request_topic));
+        auto reader = Reader<Reply>::create(
+            participant, reply_topic,
+            [client = self.get()](Reply& reply, const auto&) { client->receive(reply); });
+        if (!reader) return tl::unexpected(reader.error());
+        self->reader_ = std::move(*reader);
+        auto writer = Writer<Request>::create(participant, request_topic);
+        if (!writer) return tl::unexpected(writer.error());
+        self->writer_ = std::move(*writer);
+        return self;
+    }
+
+    /// Waits until a service hears requests and we hear replies; false after `at_most`.
+    bool wait_matched(std::chrono::milliseconds at_most) {
+        std::unique_lock lock(mutex_);
+        const auto until = std::chrono::steady_clock::now() + at_most;
+        while (writer_->matched() == 0 || reader_->matched() == 0) {
+            if (std::chrono::steady_clock::now() >= until) return false;
+            changed_.wait_for(lock, std::chrono::milliseconds(5));
+        }
+        return true;
+    }
+
+    /// Sends `request` (its header is filled in) and waits for the reply.
+    Result<Reply> call(Request& request, std::chrono::milliseconds at_most) {
+        const auto until = std::chrono::steady_clock::now() + at_most;
+        if (!wait_matched(at_most)) {
+            return fail("no service answers on " + topic_ + " within " +
+                        std::to_string(at_most.count()) + " ms");
+        }
+        std::unique_lock lock(mutex_);
+        const auto id = pursuit::request_id(writer_->guid(), ++sequence_);
+        request.header().request_id(id);
+        request.header().instance_name(instance_);
+        const auto key = key_of(id);
+        waiting_.emplace(key, std::nullopt);
+        lock.unlock();
+        if (!writer_->write(request)) {
+            lock.lock();
+            waiting_.erase(key);
+            return fail("a request on " + topic_ + " could not be sent");
+        }
+        lock.lock();
+        const bool answered =
+            changed_.wait_until(lock, until, [&] { return waiting_.at(key).has_value(); });
+        auto reply = std::move(waiting_.extract(key).mapped());
+        if (!answered) {
+            return fail("no reply on " + topic_ + " within " + std::to_string(at_most.count()) +
+                        " ms");
+        }
+        return std::move(*reply);
+    }
+
+ private:
+    RequestClient(std::string instance, std::string topic)
+        : instance_(std::move(instance)), topic_(std::move(topic)) {}
+
+    void receive(Reply& reply) {
+        const std::scoped_lock lock(mutex_);
+        const auto waiting = waiting_.find(key_of(reply.header().related_request_id()));
+        if (waiting == waiting_.end()) return;  // another client's reply
+        waiting->second = std::move(reply);
+        changed_.notify_all();
+    }
+
+    const std::string instance_;
+    const std::string topic_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::int64_t sequence_ = 0;
+    std::map<RequestKey, std::optional<Reply>> waiting_;
+    std::unique_ptr<Writer<Request>> writer_;
+    std::unique_ptr<Reader<Reply>> reader_;
+};
+
+}  // namespace pursuit

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/common/service_main.hpp"
+
+#include <signal.h>
+#include <systemd/sd-daemon.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <chrono>
+#include <ctime>
+#include <iostream>
+#include <vector>
+
+#include "services/common/health.hpp"
+#include "services/common/log.hpp"
+#include "services/common/text_format.hpp"
+
+namespace pursuit {
+namespace {
+
+constexpr auto tick_period = std::chrono::milliseconds(50);
+
+/// SIGTERM and SIGINT, taken by waiting for them. Must be made before any thread is.
+class StopSignals {
+ public:
+    StopSignals() {
+        ::sigemptyset(&set_);
+        ::sigaddset(&set_, SIGTERM);
+        ::sigaddset(&set_, SIGINT);
+        ::sigprocmask(SIG_BLOCK, &set_, nullptr);
+        // A peer of a pipe or socket that goes away is an error value, not the end.
+        ::signal(SIGPIPE, SIG_IGN);
+    }
+    /// The signal that came within `at_most`, or 0.
+    int wait(std::chrono::nanoseconds at_most) const {
+        const timespec time{static_cast<time_t>(at_most.count() / 1'000'000'000),
+                            static_cast<long>(at_most.count() % 1'000'000'000)};
+        const int signal = ::sigtimedwait(&set_, nullptr, &time);
+        return signal > 0 ? signal : 0;
+    }
+    /// From here on a further signal ends the process at once.
+    void release() const { ::sigprocmask(SIG_UNBLOCK, &set_, nullptr); }
+
+ private:
+    sigset_t set_{};
+};
+
+const disk::Log& log_settings(const google::protobuf::Message& configuration) {
+    const auto* field = configuration.GetDescriptor()->FindFieldByName("log");
+    return static_cast<const disk::Log&>(
+        configuration.GetReflection()->GetMessage(configuration, field));
+}
+
+int run(Service& service, const std::string& name, const StopSignals& signals) {
+    if (auto started = service.start(); !started) {
+        spdlog::error("{} cannot start: {}", name, started.error().message);
+        ::sd_notifyf(0, "STATUS=cannot start: %s", started.error().message.c_str());
+        service.stop();
+        return exit_failure;
+    }
+    std::string status = service.status_line();
+    ::sd_notifyf(0, "READY=1\nSTATUS=%s", status.c_str());
+    spdlog::info("{} {} ready: {}", name, version(), status);
+    while (!service.finished()) {
+        if (const int signal = signals.wait(tick_period)) {
+            spdlog::info("{} stops on {}", name, signal == SIGTERM ? "SIGTERM" : "SIGINT");
+            break;
+        }
+        service.tick();
+        ::sd_notify(0, "WATCHDOG=1");
+        if (auto now = service.status_line(); now != status) {
+            status = std::move(now);
+            ::sd_notifyf(0, "STATUS=%s", status.c_str());
+        }
+    }
+    ::sd_notify(0, "STOPPING=1");
+    signals.release();
+    const bool failed = service.failed();
+    service.stop();
+    return failed ? exit_failure : exit_success;
+}
+
+}  // namespace
+
+int service_main(int argc, char** argv, const std::string& name,
+                 google::protobuf::Message& configuration,
+                 const std::function<Result<std::unique_ptr<Service>>()>& make) {
+    CLI::App app{name};
+    std::string path;
+    std::vector<std::string> settings;
+    bool check = false;
+    app.add_option("--config", path, "configuration file (Protobuf text)");
+    app.add_option("--set", settings, "field=value, over the file")->take_all();
+    app.add_flag("--check", check, "check the configuration and leave");
+    app.set_version_flag("--version", version());
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? exit_success : exit_configuration;
+    }
+
+    Result<void> read;
+    if (!path.empty()) read = read_text_file(path, configuration);
+    if (read) read = apply_settings(settings, configuration);
+    if (!read) {
+        start_log({});
+        spdlog::error("{}: {}", name, read.error().message);
+        return exit_configuration;
+    }
+    start_log(log_settings(configuration));
+    const StopSignals signals;
+    try {
+        auto service = make();
+        if (!service) {
+            spdlog::error("{}: {}{}", name, path.empty() ? "" : path + ": ",
+                          service.error().message);
+            return exit_configuration;
+        }
+        if (check) {
+            std::cout << "the configuration is good\n";
+            return exit_success;
+        }
+        return run(**service, name, signals);
+    } catch (const std::exception& error) {
+        spdlog::critical("{} ends: {}", name, error.what());
+        return exit_failure;
+    }
+}
+
+}  // namespace pursuit

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <google/protobuf/message.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "services/common/result.hpp"
+
+namespace pursuit {
+
+/// What a service process runs.
+///
+///   start() ──► tick() every 50 ms ──► stop()      (also when start() failed half-way)
+///
+/// Threads: all four are called on the main thread.
+class Service {
+ public:
+    virtual ~Service() = default;
+    /// Brings up own entities, configuration and stores; never waits for peers.
+    virtual Result<void> start() = 0;
+    /// Publishes status when due, and looks after the rest. Must not block for more than 0.5 s.
+    virtual void tick() = 0;
+    /// True when there is nothing more to do: the process leaves with exit code 0, or 1 if failed.
+    virtual bool finished() const = 0;
+    virtual bool failed() const = 0;
+    /// One line for systemd's STATUS: what it does, or what it waits for.
+    virtual std::string status_line() const = 0;
+    /// Ends every thread and closes every file; at most 2 s.
+    virtual void stop() = 0;
+};
+
+/// Exit codes; RestartPreventExitStatus=78 keeps systemd from restarting on a bad configuration.
+enum ExitCode : int { exit_success = 0, exit_failure = 1, exit_configuration = 78 };
+
+/// The main() of a service: reads --config FILE and --set field=value into `configuration`,
+/// starts the log, makes the service, tells systemd READY when start() has returned, ticks until
+/// SIGTERM or SIGINT or until it has finished, and stops it. A second signal ends at once.
+/// `make` refuses a configuration by an Error; the process then ends with exit_configuration.
+int service_main(int argc, char** argv, const std::string& name,
+                 google::protobuf::Message& configuration,
+                 const std::function<Result<std::unique_ptr<Service>>()>& make);
+
+}  // namespace pursuit

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fastdds/rtps/common/WriteParams.h>
+#include <atomic>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <memory>
+
+#include "services/common/guarded_type.hpp"
+#include "services/common/participant.hpp"
+#include "services/common/qos.hpp"
+
+namespace pursuit {
+
+/// Publishes one topic with the QoS of its flow. Threads: write() by one thread at a time.
+template <class T>
+class Writer : private eprosima::fastdds::dds::DataWriterListener {
+ public:
+    static Result<std::unique_ptr<Writer>> create(Participant& participant, const char* name) {
+        eprosima::fastdds::dds::TypeSupport type(
+            new GuardedType<T>(participant.counts().malformed));
+        auto made = participant.topic(name, type);
+        if (!made) return tl::unexpected(made.error());
+        std::unique_ptr<Writer> self(new Writer(participant));
+        self->writer_ = participant.publisher().create_datawriter(
+            *made, writer_qos(flow_of(name), participant.heartbeat_ms()), self.get());
+        if (self->writer_ == nullptr) return fail(std::string("cannot write the topic ") + name);
+        return self;
+    }
+    ~Writer() override {
+        if (writer_ == nullptr) return;
+        writer_->set_listener(nullptr);
+        participant_.publisher().delete_datawriter(writer_);
+    }
+    Writer(const Writer&) = delete;
+    Writer& operator=(const Writer&) = delete;
+
+    /// False when the middleware did not take the sample; counted in failures().
+    bool write(T& sample) { return counted(writer_->write(&sample)); }
+
+    bool write(T& sample, eprosima::fastrtps::rtps::WriteParams& params) {
+        return counted(writer_->write(&sample, params));
+    }
+
+    /// Waits until every matched reader has acknowledged what was written; false on time-out.
+    bool wait_acknowledged(const eprosima::fastrtps::Duration_t& at_most) {
+        return writer_->wait_for_acknowledgments(at_most) ==
+               eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+    }
+
+    int matched() const { return matched_.load(); }
+    std::uint64_t failures() const { return failures_.load(); }
+    eprosima::fastrtps::rtps::GUID_t guid() const { return writer_->guid(); }
+
+ private:
+    explicit Writer(Participant& participant) : participant_(participant) {}
+
+    bool counted(bool written) {
+        if (!written) failures_.fetch_add(1);
+        return written;
+    }
+    void on_publication_matched(
+        eprosima::fastdds::dds::DataWriter*,
+        const eprosima::fastdds::dds::PublicationMatchedStatus& status) override {
+        matched_.store(status.current_count);
+    }
+    void on_offered_incompatible_qos(
+        eprosima::fastdds::dds::DataWriter*,
+        const eprosima::fastdds::dds::OfferedIncompatibleQosStatus&) override {
+        participant_.counts().incompatible.fetch_add(1);
+    }
+
+    Participant& participant_;
+    eprosima::fastdds::dds::DataWriter* writer_ = nullptr;
+    std::atomic<int> matched_{0};
+    std::atomic<std::uint64_t> failures_{0};
+};
+
+}  // namespace pursuit

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// What services/common promises about DDS, over real loopback traffic between two participants.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstring>
+#include <functional>
+#include <thread>
+
+#include "services/common/request_client.hpp"
+#include "services/common/request_server.hpp"
+#include "tests/system/free_domain.hpp"
+
+namespace pursuit {
+namespace {
+
+using namespace std::chrono_literals;
+
+bool eventually(const std::function<bool()>& condition) {
+    for (int i = 0; i < 1000; ++i) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(5ms);
+    }
+    return false;
+}
+
+class Dds : public ::testing::Test {
+ protected:
+    static std::unique_ptr<Participant> join(const disk::Dds& settings, const char* sensor = "") {
+        auto made = Participant::create(settings, "test", sensor);
+        EXPECT_TRUE(made) << made.error().message;
+        return std::move(*made);
+    }
+    testing::FreeDomain domain_;
+    std::unique_ptr<Participant> one_ = join(domain_.settings());
+    std::unique_ptr<Participant> two_ = join(domain_.settings());
+};
+
+TEST_F(Dds, delivers_the_largest_packet_unchanged) {
+    std::atomic<int> received{0};
+    std::vector<std::uint64_t> words;
+    auto reader = Reader<v1::EventPacket>::create(*two_, topic::events, [&](auto& packet, auto&) {
+        words = packet.words();
+        ++received;
+    });
+    auto writer = Writer<v1::EventPacket>::create(*one_, topic::events);
+    ASSERT_TRUE(reader && writer);
+    ASSERT_TRUE(eventually([&] { return (*writer)->matched() == 1 && (*reader)->matched() == 1; }));
+    v1::EventPacket packet;
+    for (std::uint64_t i = 0; i < max_packet_words; ++i) packet.words().push_back(i * i);
+    ASSERT_TRUE((*writer)->write(packet));
+    ASSERT_TRUE(eventually([&] { return received == 1; }));
+    EXPECT_EQ(words, packet.words());
+    EXPECT_EQ(two_->counts().lost.load(), 0U);
+}
+
+TEST_F(Dds, counts_a_sample_with_an_unknown_enum_value_and_goes_on) {
+    std::atomic<int> received{0};
+    auto reader =
+        Reader<v1::ObjectPose>::create(*two_, topic::poses, [&](auto&, auto&) { ++received; });
+    auto writer = Writer<v1::ObjectPose>::create(*one_, topic::poses);
+    ASSERT_TRUE(eventually([&] { return (*writer)->matched() == 1 && (*reader)->matched() == 1; }));
+    v1::ObjectPose pose;
+    pose.object_id(1);
+    pose.state(static_cast<v1::TrackState>(99));
+    ASSERT_TRUE((*writer)->write(pose));
+    pose.state(v1::TRACK_LOST);
+    ASSERT_TRUE((*writer)->write(pose));
+    ASSERT_TRUE(eventually([&] { return received == 1; }));
+    EXPECT_EQ(two_->counts().malformed->load(), 1U);
+}
+
+TEST_F(Dds, a_reader_in_the_default_partition_hears_a_sensor_with_a_name) {
+    auto front = join(domain_.settings(), "front");
+    std::atomic<int> received{0};
+    auto reader =
+        Reader<v1::ObjectPose>::create(*two_, topic::poses, [&](auto&, auto&) { ++received; });
+    auto writer = Writer<v1::ObjectPose>::create(*front, topic::poses);
+    ASSERT_TRUE(eventually([&] { return (*writer)->matched() == 1 && (*reader)->matched() == 1; }));
+    v1::ObjectPose pose;
+    pose.object_id(1);
+    ASSERT_TRUE((*writer)->write(pose));
+    EXPECT_TRUE(eventually([&] { return received == 1; }));
+}
+
+TEST_F(Dds, a_late_reader_gets_the_last_latched_sample) {
+    auto writer = Writer<v1::TrackerStatus>::create(*one_, topic::tracker_status);
+    v1::TrackerStatus status;
+    status.instance("default");
+    status.events_in(42);
+    ASSERT_TRUE((*writer)->write(status));
+    std::atomic<std::uint64_t> seen{0};
+    auto reader = Reader<v1::TrackerStatus>::create(*two_, topic::tracker_status,
+                                                    [&](auto& s, auto&) { seen = s.events_in(); });
+    EXPECT_TRUE(eventually([&] { return seen == 42; }));
+}
+
+class Requests : public Dds {
+ protected:
+    using Server = RequestServer<v1::SensorRequest, v1::SensorReply>;
+    using Client = RequestClient<v1::SensorRequest, v1::SensorReply>;
+
+    void SetUp() override {
+        auto server = Server::create(*one_, topic::sensor_request, topic::sensor_reply, "front",
+                                     [this](v1::SensorRequest& request) {
+                                         ++handled_;
+                                         v1::SensorReply reply;
+                                         reply.outcome().message("heard");
+                                         server_->answer(request.header().request_id(), reply);
+                                     });
+        ASSERT_TRUE(server);
+        server_ = std::move(*server);
+    }
+    std::unique_ptr<Client> client(const char* instance) {
+        auto made = Client::create(*two_, topic::sensor_request, topic::sensor_reply, instance);
+        EXPECT_TRUE(made);
+        return std::move(*made);
+    }
+    std::atomic<int> handled_{0};
+    std::unique_ptr<Server> server_;
+};
+
+TEST_F(Requests, are_answered_to_the_caller) {
+    v1::SensorRequest request;
+    const auto reply = client("")->call(request, 5s);
+    ASSERT_TRUE(reply) << reply.error().message;
+    EXPECT_EQ(reply->outcome().message().to_string(), "heard");
+    EXPECT_EQ(reply->header().instance_name().to_string(), "front");
+}
+
+TEST_F(Requests, for_another_instance_are_not_heard) {
+    v1::SensorRequest request;
+    const auto reply = client("rear")->call(request, 300ms);
+    ASSERT_FALSE(reply);
+    EXPECT_THAT(reply.error().message, ::testing::HasSubstr("no reply on pursuit/sensor/request"));
+    EXPECT_EQ(handled_, 0);
+}
+
+TEST_F(Requests, with_the_same_id_are_answered_again_and_not_applied_again) {
+    std::atomic<int> replies{0};
+    auto reader = Reader<v1::SensorReply>::create(*two_, topic::sensor_reply,
+                                                  [&](auto&, auto&) { ++replies; });
+    auto writer = Writer<v1::SensorRequest>::create(*two_, topic::sensor_request);
+    ASSERT_TRUE(eventually([&] { return (*writer)->matched() == 1 && (*reader)->matched() == 1; }));
+    v1::SensorRequest request;
+    request.header().request_id(request_id((*writer)->guid(), 7));
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE((*writer)->write(request));
+    EXPECT_TRUE(eventually([&] { return replies == 3; }));
+    EXPECT_EQ(handled_, 1);
+}
+
+TEST_F(Requests, without_a_service_fail_with_the_name_of_the_topic) {
+    server_.reset();
+    v1::SensorRequest request;
+    const auto reply = client("")->call(request, 200ms);
+    ASSERT_FALSE(reply);
+    EXPECT_THAT(reply.error().message,
+                ::testing::HasSubstr("no service answers on pursuit/sensor/request"));
+}
+
+}  // namespace
+}  // namespace pursuit
