@@ -3,6 +3,9 @@
 
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -g -DNDEBUG")
 set(CMAKE_C_FLAGS_RELEASE "-O3 -g -DNDEBUG")
+# Assertions on; optimised as far as sanitizer reports stay readable.
+set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1")
+set(CMAKE_C_FLAGS_SANITIZE "-O1 -g1")
 
 add_library(pursuit_options INTERFACE)
 target_compile_options(pursuit_options INTERFACE -ffp-contract=off)
@@ -53,5 +56,8 @@ function(pursuit_test name)
         set(arg_LABELS unit)
     endif()
     add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
-    set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}")
+    set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 300)
+    if("unit" IN_LIST arg_LABELS)
+        add_dependencies(unit_tests ${name})
+    endif()
 endfunction()
