@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/parameters.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace pursuit::tracker {
+namespace {
+
+constexpr std::array object_table{
+    Parameter<ObjectParameters>{"gate_px", &ObjectParameters::gate_px, 0.5, 50, "px",
+                                "events farther from the model than this are not the object's"},
+    Parameter<ObjectParameters>{"gradient_position_gain", &ObjectParameters::gradient_position_gain,
+                                0, 0.5, "1", "eta1 of the paper: step of the position"},
+    Parameter<ObjectParameters>{"gradient_angle_gain_rad_px2",
+                                &ObjectParameters::gradient_angle_gain_rad_px2, 0, 0.1, "rad/px²",
+                                "eta2 of the paper: step of the angle"},
+    Parameter<ObjectParameters>{"gradient_scale_gain_1_px",
+                                &ObjectParameters::gradient_scale_gain_1_px, 0, 0.1, "1/px",
+                                "eta3 of the paper: step of the scales"},
+    Parameter<ObjectParameters>{"gradient_affine_gain_1_px2",
+                                &ObjectParameters::gradient_affine_gain_1_px2, 0, 0.1, "1/px²",
+                                "step of A for the full affine transform"},
+};
+
+constexpr std::array tracker_table{
+    Parameter<TrackerParameters>{"coast_s", &TrackerParameters::coast_s, 0, 60, "s",
+                                 "how long an occluded object may coast before it is lost"},
+};
+
+constexpr std::array strategy_table{
+    Parameter<StrategyParameters>{
+        "ambiguity_px", &StrategyParameters::ambiguity_px, 0, 50, "px",
+        "an event this near to two objects or more is given by the strategy"},
+};
+
+std::string shown(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+template <class Parameters>
+CallResult<void> set_by_name(std::span<const Parameter<Parameters>> table, Parameters& parameters,
+                             std::span<const NamedValue> values) {
+    Parameters changed = parameters;
+    for (const NamedValue& wanted : values) {
+        const auto line = std::find_if(table.begin(), table.end(), [&](const auto& candidate) {
+            return candidate.name == wanted.name;
+        });
+        if (line == table.end()) {
+            return refuse(CallStatus::not_found,
+                          "parameter '" + wanted.name.substr(0, 64) + "': no such parameter here");
+        }
+        if (!(wanted.value >= line->min && wanted.value <= line->max)) {
+            return refuse(CallStatus::invalid_argument,
+                          "parameter '" + wanted.name + "': " + shown(wanted.value) +
+                              " is not within " + shown(line->min) + " to " + shown(line->max) +
+                              " " + std::string(line->unit));
+        }
+        changed.*(line->member) = wanted.value;
+    }
+    parameters = changed;
+    return {};
+}
+
+template <class Parameters>
+std::vector<NamedValue> all_values(std::span<const Parameter<Parameters>> table,
+                                   const Parameters& parameters) {
+    std::vector<NamedValue> listed;
+    listed.reserve(table.size());
+    for (const auto& line : table) {
+        listed.push_back({std::string(line.name), parameters.*(line.member)});
+    }
+    return listed;
+}
+
+Preset paper() {
+    Preset preset{"paper",
+                  "the constants and readings of Ni et al. 2015 for traffic",
+                  EstimatorKind::gradient,
+                  StrategyKind::closest,
+                  {},
+                  {},
+                  {}};
+    preset.object.gate_px = 3;
+    preset.object.gradient_position_gain = 0.1;
+    preset.object.gradient_angle_gain_rad_px2 = 2e-5;
+    preset.object.gradient_scale_gain_1_px = 1e-5;
+    return preset;
+}
+
+}  // namespace
+
+std::span<const Parameter<ObjectParameters>> object_parameter_table() { return object_table; }
+std::span<const Parameter<TrackerParameters>> tracker_parameter_table() { return tracker_table; }
+std::span<const Parameter<StrategyParameters>> strategy_parameter_table() { return strategy_table; }
+
+CallResult<void> set(ObjectParameters& parameters, std::span<const NamedValue> values) {
+    return set_by_name(object_parameter_table(), parameters, values);
+}
+CallResult<void> set(TrackerParameters& parameters, std::span<const NamedValue> values) {
+    return set_by_name(tracker_parameter_table(), parameters, values);
+}
+CallResult<void> set(StrategyParameters& parameters, std::span<const NamedValue> values) {
+    return set_by_name(strategy_parameter_table(), parameters, values);
+}
+
+std::vector<NamedValue> values(const ObjectParameters& parameters) {
+    return all_values(object_parameter_table(), parameters);
+}
+std::vector<NamedValue> values(const TrackerParameters& parameters) {
+    return all_values(tracker_parameter_table(), parameters);
+}
+std::vector<NamedValue> values(const StrategyParameters& parameters) {
+    return all_values(strategy_parameter_table(), parameters);
+}
+
+std::span<const Preset> presets() {
+    static const std::array all{Preset{"default",
+                                       "one set of constants for all scenes",
+                                       EstimatorKind::gradient,
+                                       StrategyKind::closest,
+                                       {},
+                                       {},
+                                       {}},
+                                paper()};
+    return all;
+}
+
+CallResult<const Preset*> find_preset(std::string_view name) {
+    std::string names;
+    for (const Preset& preset : presets()) {
+        if (preset.name == name) return &preset;
+        names += (names.empty() ? "" : ", ") + std::string(preset.name);
+    }
+    return refuse(CallStatus::not_found, "preset '" + std::string(name.substr(0, 64)) +
+                                             "': no such preset; there are " + names);
+}
+
+}  // namespace pursuit::tracker

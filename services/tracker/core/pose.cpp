@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/pose.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <string>
+
+namespace pursuit::tracker {
+
+Eigen::Matrix2d rotation(double theta_rad) {
+    const double c = std::cos(theta_rad);
+    const double s = std::sin(theta_rad);
+    Eigen::Matrix2d r;
+    r << c, -s, s, c;
+    return r;
+}
+
+Pose pose_of(double x_px, double y_px, double theta_rad, double scale_x, double scale_y) {
+    Pose pose;
+    pose.t_px << x_px, y_px;
+    pose.a = rotation(theta_rad) * Eigen::Vector2d(scale_x, scale_y).asDiagonal();
+    return pose;
+}
+
+double theta_rad(const Eigen::Matrix2d& a) {
+    return std::atan2(a(1, 0) - a(0, 1), a(0, 0) + a(1, 1));
+}
+
+double scale_x(const Eigen::Matrix2d& a) { return std::hypot(a(0, 0), a(1, 0)); }
+double scale_y(const Eigen::Matrix2d& a) { return std::hypot(a(0, 1), a(1, 1)); }
+
+Result<void> check(const Pose& pose, TransformKind kind) {
+    if (!pose.t_px.allFinite() || !pose.a.allFinite()) {
+        return fail("pose: a component is not a finite number");
+    }
+    if (pose.t_px.cwiseAbs().maxCoeff() > max_position_px) {
+        return fail("pose: x_px or y_px is not within -100000 to 100000");
+    }
+    const double determinant = pose.a.determinant();
+    if (!(determinant > 0)) return fail("pose: A mirrors or flattens the shape");
+    // Singular values of a 2×2 matrix from its norm and determinant.
+    const double sum = std::sqrt(pose.a.squaredNorm() + 2 * determinant);
+    const double difference = std::sqrt(std::max(0.0, pose.a.squaredNorm() - 2 * determinant));
+    const double largest = (sum + difference) / 2;
+    const double smallest = (sum - difference) / 2;
+    if (!(smallest >= min_scale) || !(largest <= max_scale)) {
+        return fail("pose: A scales by a factor that is not within 0.01 to 100");
+    }
+    if ((constrained(pose, kind).a - pose.a).norm() > 0.02 * pose.a.norm()) {
+        return fail("pose: A is not that of the transform " + std::string(to_string(kind)));
+    }
+    return {};
+}
+
+Result<void> check(const Velocity& velocity) {
+    const auto within = [](double value, double bound) { return std::abs(value) <= bound; };
+    if (!within(velocity.vx_px_s, 1e7) || !within(velocity.vy_px_s, 1e7)) {
+        return fail("velocity: vx_px_s or vy_px_s is not a number within -1e7 to 1e7");
+    }
+    if (!within(velocity.omega_rad_s, 1e5)) {
+        return fail("velocity: omega_rad_s is not a number within -1e5 to 1e5");
+    }
+    if (!within(velocity.scale_x_rate_per_s, 1e4) || !within(velocity.scale_y_rate_per_s, 1e4)) {
+        return fail("velocity: a scale rate is not a number within -1e4 to 1e4");
+    }
+    return {};
+}
+
+Pose constrained(const Pose& pose, TransformKind kind) {
+    if (kind == TransformKind::full_affine) return pose;
+    const Eigen::Matrix2d r = rotation(theta_rad(pose.a));
+    const Eigen::Vector2d scales(r.col(0).dot(pose.a.col(0)), r.col(1).dot(pose.a.col(1)));
+    switch (kind) {
+        case TransformKind::isometry:
+            return {pose.t_px, r};
+        case TransformKind::similarity:
+            return {pose.t_px, r * scales.mean()};
+        case TransformKind::paper_affine:
+            return {pose.t_px, r * scales.asDiagonal()};
+        case TransformKind::full_affine:
+            break;
+    }
+    return pose;
+}
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/tracker.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <functional>
+
+#include "services/tracker/core/pose_grid.hpp"
+#include "services/tracker/core/registry.hpp"
+#include "services/tracker/core/track.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+// Beyond it microseconds are no longer whole in a double; 285 years.
+constexpr std::int64_t max_t_us = std::int64_t{1} << 53;
+
+CallResult<void> check_range(std::string_view field, double value, double min, double max) {
+    if (value >= min && value <= max) return {};
+    return refuse(CallStatus::invalid_argument, std::string(field) + ": " + std::to_string(value) +
+                                                    " is not within " + std::to_string(min) +
+                                                    " to " + std::to_string(max));
+}
+
+}  // namespace
+
+class Tracker::Impl {
+ public:
+    Impl(TrackerOptions given, const Preset& preset)
+        : options(std::move(given)),
+          registry(options.max_objects, options.next_object_id, preset),
+          grid(options.pose_rate_hz, options.max_poses_per_s) {}
+
+    /// A call's effect on the tracks, held back until the last processed time is over.
+    struct Change {
+        std::int64_t effective_time_us;
+        std::function<void()> apply;
+    };
+
+    [[nodiscard]] std::int64_t effective_time_us() const { return last_t_us + 1; }
+
+    void hold(std::function<void()> change) {
+        changes.push_back({effective_time_us(), std::move(change)});
+    }
+
+    // `now_us` begins: what was called for before it takes effect, in turn with the poses due.
+    void reach(std::int64_t now_us, PoseSink& sink) {
+        while (!changes.empty() && changes.front().effective_time_us <= now_us) {
+            emit_before(changes.front().effective_time_us, sink);
+            changes.front().apply();
+            changes.pop_front();
+        }
+        emit_before(now_us + 1, sink);
+    }
+
+    void emit_before(std::int64_t end_us, PoseSink& sink) {
+        for (; grid.next_us() < end_us; grid.step()) {
+            for (const Track& track : tracks) {
+                if (!grid.is_due(track.object_id(), tracks.size())) {
+                    ++counters.poses_thinned;
+                    continue;
+                }
+                PoseRecord record = track.record(grid.next_us());
+                record.stream_id = stream_id;
+                sink.pose(record);
+                ++counters.poses_emitted;
+            }
+        }
+    }
+
+    bool accepts(const Event& event) {
+        if (event.t_us < 0 || event.t_us >= max_t_us) {
+            ++counters.dropped_time_out_of_range;
+            return false;
+        }
+        if (event.t_us < last_t_us) {
+            ++counters.dropped_time_went_back;
+            return false;
+        }
+        if (event.x >= geometry.width || event.y >= geometry.height) {
+            ++counters.dropped_outside_geometry;
+            return false;
+        }
+        return true;
+    }
+
+    void process(const Event& event, PoseSink& sink) {
+        Track* closest = nullptr;
+        double closest_px = 0;
+        for (Track& track : tracks) {
+            const double distance_px = track.nearest(event);
+            if (distance_px > track.gate_px()) continue;
+            if (closest != nullptr && distance_px >= closest_px) continue;
+            closest = &track;
+            closest_px = distance_px;
+        }
+        if (closest == nullptr) {
+            ++counters.events_unused;
+            return;
+        }
+        closest->update(event);
+        ++counters.events_used;
+        if (options.emit_updates) {
+            sink.update({closest->object_id(), stream_id, event.t_us, closest->pose()});
+        }
+    }
+
+    Track* find_track(std::uint32_t object_id) {
+        const auto found = std::find_if(tracks.begin(), tracks.end(), [&](const Track& track) {
+            return track.object_id() == object_id;
+        });
+        return found == tracks.end() ? nullptr : &*found;
+    }
+
+    TrackerOptions options;
+    Registry registry;
+    PoseGrid grid;
+    TrackerCounters counters;
+    Geometry geometry;
+    std::uint64_t stream_id = 0;
+    std::int64_t last_t_us = -1;
+    std::deque<Change> changes;
+    std::vector<Track> tracks;  // in order of ids
+};
+
+CallResult<Tracker> Tracker::create(const TrackerOptions& options) {
+    for (const auto& checked :
+         {check_range("pose_rate_hz", options.pose_rate_hz, 1, 100'000),
+          check_range("max_poses_per_s", options.max_poses_per_s, 1, 1e6),
+          check_range("max_objects", options.max_objects, 1, 256),
+          check_range("next_object_id", options.next_object_id, 1, UINT32_MAX - 1)}) {
+        if (!checked) return tl::unexpected(checked.error());
+    }
+    auto preset = find_preset(options.preset);
+    if (!preset) return tl::unexpected(preset.error());
+    return Tracker(std::make_unique<Impl>(options, **preset));
+}
+
+Tracker::Tracker(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Tracker::Tracker(Tracker&& other) noexcept = default;
+Tracker& Tracker::operator=(Tracker&& other) noexcept = default;
+Tracker::~Tracker() = default;
+
+void Tracker::begin_stream(Geometry geometry, std::uint64_t stream_id) {
+    // Nothing of the former stream comes any more.
+    for (Impl::Change& change : impl_->changes) change.apply();
+    impl_->changes.clear();
+    impl_->geometry = geometry;
+    impl_->stream_id = stream_id;
+    impl_->last_t_us = -1;
+    impl_->grid.restart();
+    for (Track& track : impl_->tracks) track.begin_stream();
+}
+
+void Tracker::process(std::span<const Event> events, PoseSink& sink) {
+    for (const Event& event : events) {
+        ++impl_->counters.events_in;
+        if (!impl_->accepts(event)) continue;
+        if (event.t_us > impl_->last_t_us) impl_->reach(event.t_us, sink);
+        impl_->last_t_us = event.t_us;
+        impl_->grid.event_at(event.t_us);
+        impl_->process(event, sink);
+    }
+}
+
+void Tracker::advance(std::int64_t t_us, PoseSink& sink) {
+    if (t_us <= impl_->last_t_us || t_us >= max_t_us) return;
+    impl_->reach(t_us, sink);
+    impl_->last_t_us = t_us;
+}
+
+std::int64_t Tracker::last_t_us() const { return impl_->last_t_us; }
+std::int64_t Tracker::effective_time_us() const { return impl_->effective_time_us(); }
+
+CallResult<Registered> Tracker::register_object(const Registration& registration) {
+    auto registered = impl_->registry.add(registration, effective_time_us());
+    if (!registered || registered->already_registered) return registered;
+    impl_->hold([impl = impl_.get(), object = *impl_->registry.find(registered->object_id)] {
+        const auto place =
+            std::find_if(impl->tracks.begin(), impl->tracks.end(),
+                         [&](const Track& track) { return track.object_id() > object.object_id; });
+        impl->tracks.insert(place, Track(object));
+    });
+    return registered;
+}
+
+CallResult<void> Tracker::update_object(const ObjectUpdate& update) {
+    auto replaced = impl_->registry.replace(update, effective_time_us());
+    if (!replaced) return tl::unexpected(replaced.error());
+    impl_->hold([impl = impl_.get(), object = **replaced] {
+        if (Track* track = impl->find_track(object.object_id)) track->replace(object);
+    });
+    return {};
+}
+
+CallResult<void> Tracker::remove_object(std::string_view name) {
+    auto removed = impl_->registry.remove(name);
+    if (!removed) return tl::unexpected(removed.error());
+    impl_->hold([impl = impl_.get(), object_id = *removed] {
+        std::erase_if(impl->tracks,
+                      [&](const Track& track) { return track.object_id() == object_id; });
+    });
+    return {};
+}
+
+CallResult<void> Tracker::set_pose(std::string_view name, const Start& start) {
+    auto changed = impl_->registry.set_start(name, start, effective_time_us());
+    if (!changed) return tl::unexpected(changed.error());
+    impl_->hold([impl = impl_.get(), object = **changed] {
+        if (Track* track = impl->find_track(object.object_id)) track->restart(object);
+    });
+    return {};
+}
+
+CallResult<void> Tracker::set_strategy(StrategyKind kind, std::span<const NamedValue> parameters) {
+    return impl_->registry.set_strategy(kind, parameters, effective_time_us());
+}
+
+CallResult<void> Tracker::set_parameters(std::string_view name,
+                                         std::span<const NamedValue> parameters) {
+    auto changed = impl_->registry.set_parameters(name, parameters, effective_time_us());
+    if (!changed) return changed;
+    impl_->hold([impl = impl_.get(), objects = impl_->registry.objects()] {
+        for (const RegisteredObject& object : objects) {
+            if (Track* track = impl->find_track(object.object_id)) track->replace(object);
+        }
+    });
+    return {};
+}
+
+std::vector<std::string> Tracker::object_names() const {
+    std::vector<std::string> names;
+    for (const RegisteredObject& object : impl_->registry.objects()) {
+        names.push_back(object.shape.name);
+    }
+    return names;
+}
+
+std::vector<RegisteredObject> Tracker::objects() const { return impl_->registry.objects(); }
+
+CallResult<RegisteredObject> Tracker::object(std::string_view name) const {
+    if (const RegisteredObject* found = impl_->registry.find(name)) return *found;
+    return refuse(CallStatus::not_found,
+                  "name: no object '" + std::string(name.substr(0, 64)) + "' is registered");
+}
+
+std::vector<TrackSnapshot> Tracker::snapshots() const {
+    std::vector<TrackSnapshot> snapshots;
+    for (const Track& track : impl_->tracks) snapshots.push_back(track.snapshot());
+    return snapshots;
+}
+
+Settings Tracker::settings() const { return impl_->registry.settings(); }
+const TrackerOptions& Tracker::options() const { return impl_->options; }
+Geometry Tracker::geometry() const { return impl_->geometry; }
+std::uint64_t Tracker::stream_id() const { return impl_->stream_id; }
+std::uint32_t Tracker::next_object_id() const { return impl_->registry.next_object_id(); }
+const TrackerCounters& Tracker::counters() const { return impl_->counters; }
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/tracker/core/tracker.hpp"
+#include "tests/unit/tracker/core/scene.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+using test::arrow;
+using test::Poses;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr Geometry geometry{304, 240};
+
+Tracker make_tracker(TrackerOptions options = {}) {
+    Tracker tracker = std::move(*Tracker::create(options));
+    tracker.begin_stream(geometry, 7);
+    return tracker;
+}
+
+Registration at(const Shape& shape, double x_px, double y_px) {
+    Registration registration;
+    registration.shape = shape;
+    registration.start.pose = pose_of(x_px, y_px, 0);
+    return registration;
+}
+
+template <class T>
+CallStatus status_of(const CallResult<T>& result) {
+    EXPECT_FALSE(result.has_value());
+    return result ? CallStatus{99} : result.error().status;
+}
+
+TEST(TrackerCalls, refuse_options_out_of_range) {
+    for (const TrackerOptions& bad :
+         {TrackerOptions{.pose_rate_hz = 0}, TrackerOptions{.pose_rate_hz = 1e6},
+          TrackerOptions{.pose_rate_hz = std::nan("")}, TrackerOptions{.max_poses_per_s = 0},
+          TrackerOptions{.max_objects = 0}, TrackerOptions{.max_objects = 257},
+          TrackerOptions{.next_object_id = 0}}) {
+        EXPECT_EQ(status_of(Tracker::create(bad)), CallStatus::invalid_argument);
+    }
+    EXPECT_EQ(status_of(Tracker::create({.preset = "other"})), CallStatus::not_found);
+}
+
+TEST(TrackerCalls, give_ids_from_1_that_are_not_used_again) {
+    Tracker tracker = make_tracker();
+    EXPECT_EQ(tracker.register_object(at(arrow("a"), 1, 1))->object_id, 1U);
+    EXPECT_EQ(tracker.register_object(at(arrow("b"), 1, 1))->object_id, 2U);
+    ASSERT_TRUE(tracker.remove_object("b"));
+    EXPECT_EQ(tracker.register_object(at(arrow("b"), 1, 1))->object_id, 3U);
+    EXPECT_THAT(tracker.object_names(), ElementsAre("a", "b"));
+    EXPECT_EQ(tracker.next_object_id(), 4U);
+}
+
+TEST(TrackerCalls, take_an_id_of_the_caller_s_unless_it_was_used) {
+    Tracker tracker = make_tracker();
+    Registration registration = at(arrow("a"), 1, 1);
+    registration.object_id = 17;
+    EXPECT_EQ(tracker.register_object(registration)->object_id, 17U);
+    registration.shape.name = "b";
+    EXPECT_EQ(status_of(tracker.register_object(registration)), CallStatus::already_exists);
+    registration.object_id = 5;
+    EXPECT_EQ(status_of(tracker.register_object(registration)), CallStatus::already_exists);
+}
+
+TEST(TrackerCalls, restore_former_ids_below_the_next_one) {
+    Tracker tracker = make_tracker({.next_object_id = 9});
+    Registration registration = at(arrow("a"), 1, 1);
+    registration.object_id = 3;
+    EXPECT_EQ(tracker.register_object(registration)->object_id, 3U);
+    EXPECT_EQ(tracker.register_object(at(arrow("new"), 1, 1))->object_id, 9U);
+    registration.shape.name = "b";
+    registration.object_id = 7;
+    EXPECT_EQ(tracker.register_object(registration)->object_id, 7U);
+    EXPECT_THAT(tracker.object_names(), ElementsAre("a", "b", "new"));
+    registration.shape.name = "c";
+    EXPECT_EQ(status_of(tracker.register_object(registration)), CallStatus::already_exists);
+}
+
+TEST(TrackerCalls, give_identical_content_its_id_again_whatever_the_start) {
+    Tracker tracker = make_tracker();
+    const auto first = tracker.register_object(at(arrow("a"), 1, 1));
+    Registration again = at(arrow("a"), 50, 60);
+    const auto second = tracker.register_object(again);
+    ASSERT_TRUE(second);
+    EXPECT_TRUE(second->already_registered);
+    EXPECT_EQ(second->object_id, first->object_id);
+    again.transform = TransformKind::similarity;
+    EXPECT_EQ(status_of(tracker.register_object(again)), CallStatus::already_exists);
+    again = at(arrow("a"), 1, 1);
+    again.shape.points_px[0].x() += 1;
+    EXPECT_EQ(status_of(tracker.register_object(again)), CallStatus::already_exists);
+}
+
+TEST(TrackerCalls, refuse_bad_shapes_starts_and_parameters_and_change_nothing) {
+    Tracker tracker = make_tracker();
+    Registration bad = at(arrow("a"), 1, 1);
+    bad.shape.points_px[3].x() = std::nanf("");
+    EXPECT_EQ(status_of(tracker.register_object(bad)), CallStatus::invalid_argument);
+    bad = at(arrow("a"), std::nan(""), 1);
+    EXPECT_EQ(status_of(tracker.register_object(bad)), CallStatus::invalid_argument);
+    bad = at(arrow("a"), 1, 1);
+    bad.start.velocity.vx_px_s = INFINITY;
+    EXPECT_EQ(status_of(tracker.register_object(bad)), CallStatus::invalid_argument);
+    bad = at(arrow("a"), 1, 1);
+    bad.parameters = {{"gate_px", -4}};
+    EXPECT_EQ(status_of(tracker.register_object(bad)), CallStatus::invalid_argument);
+    bad.parameters = {{"gate", 4}};
+    EXPECT_EQ(status_of(tracker.register_object(bad)), CallStatus::not_found);
+    EXPECT_THAT(tracker.object_names(), ElementsAre());
+    EXPECT_EQ(tracker.next_object_id(), 1U);
+}
+
+TEST(TrackerCalls, refuse_a_shape_that_leaves_its_bounds_about_its_centre) {
+    Tracker tracker = make_tracker();
+    Registration wide = at(arrow("a"), 1, 1);
+    wide.shape.points_px.assign(100, {-4096, 0});
+    wide.shape.points_px[0] = {4096, 0};
+    wide.shape.edges.clear();
+    const auto refused = tracker.register_object(wide);
+    EXPECT_EQ(status_of(refused), CallStatus::invalid_argument);
+    EXPECT_THAT(refused.error().message, HasSubstr("centre of gravity"));
+}
+
+TEST(TrackerCalls, refuse_more_objects_than_fit) {
+    Tracker tracker = make_tracker({.max_objects = 2});
+    ASSERT_TRUE(tracker.register_object(at(arrow("a"), 1, 1)));
+    ASSERT_TRUE(tracker.register_object(at(arrow("b"), 1, 1)));
+    EXPECT_EQ(status_of(tracker.register_object(at(arrow("c"), 1, 1))), CallStatus::limit_exceeded);
+}
+
+TEST(TrackerCalls, name_unknown_objects) {
+    Tracker tracker = make_tracker();
+    EXPECT_EQ(status_of(tracker.remove_object("x")), CallStatus::not_found);
+    EXPECT_EQ(status_of(tracker.set_pose("x", {})), CallStatus::not_found);
+    EXPECT_EQ(status_of(tracker.object("x")), CallStatus::not_found);
+    const std::vector<NamedValue> gate{{"gate_px", 5}};
+    EXPECT_EQ(status_of(tracker.set_parameters("x", gate)), CallStatus::not_found);
+    EXPECT_EQ(status_of(tracker.update_object({arrow("x"), {}, {}, {}})), CallStatus::not_found);
+}
+
+TEST(TrackerCalls, set_parameters_of_one_object_of_all_and_of_the_tracker) {
+    Tracker tracker = make_tracker();
+    ASSERT_TRUE(tracker.register_object(at(arrow("a"), 1, 1)));
+    ASSERT_TRUE(tracker.register_object(at(arrow("b"), 1, 1)));
+    const std::vector<NamedValue> one{{"gate_px", 5}};
+    ASSERT_TRUE(tracker.set_parameters("a", one));
+    EXPECT_EQ(tracker.object("a")->parameters.gate_px, 5);
+    EXPECT_NE(tracker.object("b")->parameters.gate_px, 5);
+    const std::vector<NamedValue> all{{"gate_px", 8}, {"coast_s", 0.25}};
+    ASSERT_TRUE(tracker.set_parameters("", all));
+    EXPECT_EQ(tracker.object("a")->parameters.gate_px, 8);
+    EXPECT_EQ(tracker.object("b")->parameters.gate_px, 8);
+    EXPECT_EQ(tracker.settings().new_objects.gate_px, 8);
+    EXPECT_EQ(tracker.settings().tracker.coast_s, 0.25);
+    const std::vector<NamedValue> half_bad{{"gate_px", 9}, {"coast_s", -1}};
+    EXPECT_EQ(status_of(tracker.set_parameters("", half_bad)), CallStatus::invalid_argument);
+    EXPECT_EQ(tracker.object("a")->parameters.gate_px, 8);
+}
+
+TEST(TrackerCalls, update_an_object_and_keep_its_pose) {
+    Tracker tracker = make_tracker();
+    ASSERT_TRUE(tracker.register_object(at(arrow("a"), 30, 40)));
+    ObjectUpdate update{arrow("a"), TransformKind::similarity, EstimatorKind::gradient, {}};
+    for (auto& point : update.shape.points_px) point *= 1.1F;
+    ASSERT_TRUE(tracker.update_object(update));
+    EXPECT_EQ(tracker.object("a")->transform, TransformKind::similarity);
+    Poses poses;
+    const std::vector<Event> far{{0, 300, 200, 1}, {1500, 300, 200, 1}};
+    tracker.process(far, poses);
+    ASSERT_FALSE(poses.rows.empty());
+    EXPECT_EQ(poses.rows[0].record.pose.t_px, Eigen::Vector2d(30, 40));
+    EXPECT_EQ(poses.rows[0].record.transform, TransformKind::similarity);
+}
+
+TEST(TrackerCalls, hold_from_the_first_time_after_the_last_processed_one) {
+    Tracker tracker = make_tracker();
+    Poses poses;
+    const std::vector<Event> first{{0, 300, 200, 1}, {2500, 300, 200, 1}};
+    tracker.process(first, poses);
+    EXPECT_EQ(tracker.effective_time_us(), 2501);
+    ASSERT_TRUE(tracker.register_object(at(arrow("a"), 100, 100)));
+    EXPECT_EQ(tracker.object("a")->effective_time_us, 2501);
+    // More events of the same microsecond come before the call, whenever it was made.
+    const std::vector<Event> same{{2500, 70, 100, 1}};
+    tracker.process(same, poses);
+    EXPECT_EQ(tracker.counters().events_used, 0U);
+    tracker.advance(4000, poses);
+    ASSERT_EQ(poses.rows.size(), 2U);
+    EXPECT_EQ(poses.rows[0].record.t_us, 3000);
+    EXPECT_EQ(poses.rows[0].model, "a");
+    EXPECT_EQ(poses.rows[0].record.stream_id, 7U);
+    ASSERT_TRUE(tracker.remove_object("a"));
+    EXPECT_EQ(tracker.effective_time_us(), 4001);
+    tracker.advance(9000, poses);
+    EXPECT_EQ(poses.rows.size(), 2U);
+}
+
+TEST(TrackerCalls, drop_and_count_events_outside_the_geometry_or_back_in_time) {
+    Tracker tracker = make_tracker();
+    Poses poses;
+    const std::vector<Event> events{{10, 304, 0, 1}, {10, 0, 240, 0},      {20, 5, 5, 1},
+                                    {19, 5, 5, 1},   {-1, 5, 5, 1},        {INT64_MAX, 5, 5, 1},
+                                    {20, 5, 5, 1},   {40, 65535, 65535, 1}};
+    tracker.process(events, poses);
+    const TrackerCounters& counters = tracker.counters();
+    EXPECT_EQ(counters.events_in, 8U);
+    EXPECT_EQ(counters.dropped_outside_geometry, 3U);
+    EXPECT_EQ(counters.dropped_time_went_back, 1U);
+    EXPECT_EQ(counters.dropped_time_out_of_range, 2U);
+    EXPECT_EQ(counters.events_unused, 2U);
+    EXPECT_EQ(tracker.last_t_us(), 20);
+}
+
+}  // namespace
+}  // namespace pursuit::tracker
