@@ -18,7 +18,8 @@ endif()
 
 add_library(pursuit_warnings INTERFACE)
 target_compile_options(pursuit_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                       -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+                       -Wno-sign-conversion -Werror
+                       $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Woverloaded-virtual>
                        # gcc 12 reports const char* + std::string&& wrongly (its bug 105651).
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 
