@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/common/output_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace pursuit {
+namespace {
+
+constexpr std::size_t buffer_bytes = 1 << 18;
+
+}  // namespace
+
+Result<OutputFile> OutputFile::create(const std::string& path) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0) return fail(path + ": cannot create: " + std::strerror(errno));
+    return OutputFile(path, file);
+}
+
+OutputFile::OutputFile(std::string path, int file) : path_(std::move(path)), file_(file) {
+    buffer_.reserve(buffer_bytes);
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      file_(std::exchange(other.file_, -1)),
+      buffer_(std::move(other.buffer_)),
+      error_(std::move(other.error_)) {}
+
+OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
+    if (this != &other) {
+        if (file_ >= 0) ::close(file_);
+        path_ = std::move(other.path_);
+        file_ = std::exchange(other.file_, -1);
+        buffer_ = std::move(other.buffer_);
+        error_ = std::move(other.error_);
+    }
+    return *this;
+}
+
+OutputFile::~OutputFile() {
+    if (file_ >= 0) ::close(file_);
+}
+
+Result<void> OutputFile::write(std::string_view bytes) {
+    if (!error_.empty()) return fail(error_);
+    buffer_.append(bytes);
+    return buffer_.size() >= buffer_bytes ? flush() : Result<void>{};
+}
+
+Result<void> OutputFile::flush() {
+    std::size_t written = 0;
+    while (written < buffer_.size()) {
+        const auto n = ::write(file_, buffer_.data() + written, buffer_.size() - written);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) {
+            error_ = path_ + ": cannot write: " + std::strerror(errno);
+            return fail(error_);
+        }
+        written += static_cast<std::size_t>(n);
+    }
+    buffer_.clear();
+    return {};
+}
+
+Result<void> OutputFile::close() {
+    if (!error_.empty()) return fail(error_);
+    if (file_ < 0) return {};
+    if (auto ok = flush(); !ok) return ok;
+    if (::close(std::exchange(file_, -1)) != 0) {
+        error_ = path_ + ": cannot close: " + std::strerror(errno);
+        return fail(error_);
+    }
+    return {};
+}
+
+}  // namespace pursuit

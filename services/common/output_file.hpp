@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "services/common/result.hpp"
+
+namespace pursuit {
+
+/// A file being written from its start, buffered. The first error sticks: every later call returns
+/// it, so that a full disk cannot pass as success. A file that was not closed is incomplete.
+class OutputFile {
+ public:
+    /// Creates or empties `path`.
+    static Result<OutputFile> create(const std::string& path);
+
+    OutputFile(OutputFile&& other) noexcept;
+    OutputFile& operator=(OutputFile&& other) noexcept;
+    ~OutputFile();
+
+    Result<void> write(std::string_view bytes);
+
+    /// Writes what is buffered and closes; the only proof that the file is whole.
+    Result<void> close();
+
+    const std::string& path() const { return path_; }
+
+ private:
+    OutputFile(std::string path, int file);
+    Result<void> flush();
+
+    std::string path_;
+    int file_ = -1;
+    std::string buffer_;
+    std::string error_;
+};
+
+}  // namespace pursuit
