@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/sensor/formats/dat_writer.hpp"
+
+#include <cstring>
+#include <utility>
+
+#include "services/common/output_file.hpp"
+
+namespace pursuit::sensor {
+namespace {
+
+constexpr std::int64_t wrap_us = std::int64_t{1} << 32;
+constexpr int largest_side = 1 << 14;
+
+class DatWriter final : public EventWriter {
+ public:
+    DatWriter(OutputFile file, Geometry geometry)
+        : EventWriter(file.path(), geometry), file_(std::move(file)) {}
+
+    Result<void> write_header() {
+        return file_.write("% Data file containing CD events.\n% Version 2\n% Height " +
+                           std::to_string(geometry().height) + "\n% Width " +
+                           std::to_string(geometry().width) + "\n\x0c\x08");
+    }
+
+    Result<void> close() override { return file_.close(); }
+
+ protected:
+    Result<void> encode(std::span<const Event> events) override {
+        for (const auto& event : events) {
+            const bool wraps = event.t_us / wrap_us != last_t_us_ / wrap_us;
+            if (wraps && event.t_us - last_t_us_ >= wrap_us / 2) {
+                return fail(name() + ": DAT cannot hold the step of time from " +
+                            std::to_string(last_t_us_) + " to " + std::to_string(event.t_us) +
+                            " us");
+            }
+            last_t_us_ = event.t_us;
+            const std::uint32_t words[2] = {static_cast<std::uint32_t>(event.t_us),
+                                            event.x | static_cast<std::uint32_t>(event.y) << 14 |
+                                                static_cast<std::uint32_t>(event.polarity) << 28};
+            char bytes[sizeof words];
+            std::memcpy(bytes, words, sizeof words);
+            if (auto ok = file_.write({bytes, sizeof bytes}); !ok) return ok;
+        }
+        return {};
+    }
+
+ private:
+    OutputFile file_;
+    std::int64_t last_t_us_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<EventWriter>> create_dat(const std::string& path, Geometry geometry) {
+    if (geometry.width < 1 || geometry.height < 1 || geometry.width > largest_side ||
+        geometry.height > largest_side) {
+        return fail(path + ": DAT cannot hold " + std::to_string(geometry.width) + "x" +
+                    std::to_string(geometry.height) + " pixels");
+    }
+    auto file = OutputFile::create(path);
+    if (!file) return tl::unexpected(file.error());
+    auto writer = std::make_unique<DatWriter>(std::move(*file), geometry);
+    if (auto ok = writer->write_header(); !ok) return tl::unexpected(ok.error());
+    return writer;
+}
+
+}  // namespace pursuit::sensor

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/sensor/formats/rpg_text_reader.hpp"
+
+#include <charconv>
+#include <string>
+#include <utility>
+
+namespace pursuit::sensor {
+namespace {
+
+constexpr std::size_t longest_line = 256;
+constexpr Geometry davis240{240, 180};
+
+std::string_view take_word(std::string_view& line) {
+    const auto begin = std::min(line.find_first_not_of(" \t\r"), line.size());
+    const auto end = std::min(line.find_first_of(" \t\r", begin), line.size());
+    const auto word = line.substr(begin, end - begin);
+    line.remove_prefix(end);
+    return word;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// "2.097134501" → 2097135. Digit by digit: as a double, a time since 1970 would lose its us.
+std::optional<std::int64_t> microseconds(std::string_view word) {
+    std::int64_t t_us = 0;
+    int decimals = -1;  // digits after the point so far; -1: before it
+    bool any = false;
+    for (const char c : word) {
+        if (c == '.' && decimals < 0) {
+            decimals = 0;
+        } else if (!is_digit(c)) {
+            return std::nullopt;
+        } else if (decimals < 6) {
+            if (t_us > std::int64_t{100'000'000'000'000'000}) return std::nullopt;
+            t_us = t_us * 10 + (c - '0');
+            if (decimals >= 0) ++decimals;
+            any = true;
+        } else {
+            if (decimals == 6 && c >= '5') ++t_us;
+            decimals = 7;
+        }
+    }
+    if (!any) return std::nullopt;
+    for (int i = std::max(decimals, 0); i < 6; ++i) {
+        if (t_us > std::int64_t{100'000'000'000'000'000}) return std::nullopt;
+        t_us *= 10;
+    }
+    return t_us;
+}
+
+template <class Number>
+bool parse(std::string_view word, Number& number) {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return error == std::errc() && end == word.data() + word.size() && !word.empty();
+}
+
+class RpgTextReader final : public EventReader {
+ public:
+    RpgTextReader(ByteWindow bytes, Geometry geometry)
+        : bytes_(std::move(bytes)), geometry_(geometry) {}
+
+    Geometry geometry() const override { return geometry_; }
+
+ protected:
+    Decoded decode(std::span<Event> events) override {
+        Decoded done;
+        while (done.count < events.size()) {
+            const auto ahead = bytes_.ahead(longest_line);
+            if (!ahead) {
+                done.error = ahead.error();
+                return done;
+            }
+            if (ahead->empty()) return done;
+            const std::string_view text(reinterpret_cast<const char*>(ahead->data()),
+                                        std::min(ahead->size(), longest_line));
+            ++line_;
+            auto line_end = text.find('\n');
+            if (line_end == std::string_view::npos) {
+                if (text.size() == longest_line) {
+                    done.error = error("the line is longer than 256 bytes");
+                    return done;
+                }
+                line_end = text.size();  // the last line may lack its end
+            }
+            if (auto cause = read_line(text.substr(0, line_end), events[done.count])) {
+                done.error = error(*cause);
+                return done;
+            }
+            done.count += holds_event_ ? 1 : 0;
+            bytes_.consume(std::min(line_end + 1, text.size()));
+        }
+        return done;
+    }
+
+ private:
+    Error error(const std::string& cause) const {
+        return error_at(bytes_.name(), bytes_.offset(),
+                        "line " + std::to_string(line_) + ": " + cause);
+    }
+
+    std::optional<std::string> read_line(std::string_view line, Event& event) {
+        const auto time = take_word(line);
+        holds_event_ = !time.empty() && time.front() != '#';
+        if (!holds_event_) return std::nullopt;
+        const auto t_us = microseconds(time);
+        if (!t_us) return "\"" + std::string(time) + "\" is not a time in seconds";
+        event.t_us = *t_us;
+        unsigned polarity = 0;
+        if (!parse(take_word(line), event.x) || !parse(take_word(line), event.y) ||
+            !parse(take_word(line), polarity) || !take_word(line).empty()) {
+            return "must be \"t_s x y p\"";
+        }
+        if (polarity > 1) return "polarity " + std::to_string(polarity) + " is not 0 or 1";
+        event.polarity = static_cast<std::uint8_t>(polarity);
+        if (event.x >= geometry_.width || event.y >= geometry_.height) {
+            return "pixel (" + std::to_string(event.x) + ", " + std::to_string(event.y) +
+                   ") is outside " + std::to_string(geometry_.width) + "x" +
+                   std::to_string(geometry_.height);
+        }
+        if (event.t_us < last_t_us_) {
+            return "time goes back from " + std::to_string(last_t_us_) + " to " +
+                   std::to_string(event.t_us) + " us";
+        }
+        last_t_us_ = event.t_us;
+        return std::nullopt;
+    }
+
+    ByteWindow bytes_;
+    Geometry geometry_;
+    std::uint64_t line_ = 0;
+    std::int64_t last_t_us_ = 0;
+    bool holds_event_ = false;
+};
+
+}  // namespace
+
+bool looks_like_rpg_text(std::string_view head) {
+    const auto begin = head.find_first_not_of(" \t\r\n");
+    return begin != std::string_view::npos && (is_digit(head[begin]) || head[begin] == '#') &&
+           head.find('\0') == std::string_view::npos;
+}
+
+Result<std::unique_ptr<EventReader>> open_rpg_text(ByteWindow bytes, const ReadOptions& options) {
+    return std::make_unique<RpgTextReader>(std::move(bytes), options.geometry.value_or(davis240));
+}
+
+}  // namespace pursuit::sensor
