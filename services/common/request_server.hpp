@@ -26,7 +26,7 @@ namespace pursuit {
 template <class Request, class Reply>
 class RequestServer {
  public:
-    using Handler = std::function<void(Request&)>;
+    using Handler = std::function<void(Request&, RequestServer&)>;
     static constexpr std::size_t kept_replies = 256;
     static constexpr std::size_t most_pending = 1024;
 
@@ -87,7 +87,7 @@ class RequestServer {
             }
             pending_.emplace(key, true);
         }
-        handler_(request);
+        handler_(request, *this);
     }
 
     void send(Reply& reply) {

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/sensor/sensor_service.hpp"
+
+#include <cmath>
+
+#include "services/sensor/source.hpp"
+
+namespace pursuit::sensor {
+namespace {
+
+constexpr std::int64_t status_period_ns = 1'000'000'000;
+constexpr double slowest_rate = 0.001;
+constexpr double fastest_rate = 1000;
+
+std::string source_name(const disk::SensorConfig& config) {
+    return config.has_scene() ? "scene " + config.scene() : config.recording();
+}
+
+void refuse(v1::SensorReply& reply, v1::StatusCode code, const std::string& message) {
+    reply.outcome().code(code);
+    reply.outcome().message(bounded(message, 511));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Service>> SensorService::make(const disk::SensorConfig& config) {
+    if (config.rate() != 0 && config.rate() < slowest_rate) {
+        return fail("field rate is " + std::to_string(config.rate()) +
+                    ", must be 0 or at least 0.001");
+    }
+    auto source = open_source(config);
+    if (!source) return tl::unexpected(source.error());
+    return std::unique_ptr<Service>(new SensorService(config, std::move(*source)));
+}
+
+SensorService::SensorService(const disk::SensorConfig& config, std::unique_ptr<EventReader> source)
+    : config_(config),
+      instance_(config.name().empty() ? "default" : config.name()),
+      health_(config),
+      pacer_(clock_, config.rate()),
+      source_(std::move(source)) {}
+
+Result<void> SensorService::start() {
+    auto participant =
+        Participant::create(config_.dds(), "pursuit-sensor " + instance_, config_.name());
+    if (!participant) return tl::unexpected(participant.error());
+    participant_ = std::move(*participant);
+    auto events = Writer<v1::EventPacket>::create(*participant_, topic::events);
+    if (!events) return tl::unexpected(events.error());
+    events_ = std::move(*events);
+    auto status = Writer<v1::SensorStatus>::create(*participant_, topic::sensor_status);
+    if (!status) return tl::unexpected(status.error());
+    status_ = std::move(*status);
+    publisher_ = std::make_unique<EventPublisher>(config_, *events_, pacer_, clock_, health_);
+    auto requests = RequestServer<v1::SensorRequest, v1::SensorReply>::create(
+        *participant_, topic::sensor_request, topic::sensor_reply, instance_,
+        [this](v1::SensorRequest& request, auto& server) {
+            server.answer(request.header().request_id(), serve(request));
+        });
+    if (!requests) return tl::unexpected(requests.error());
+    requests_ = std::move(*requests);
+    publisher_->start(std::move(source_));
+    return {};
+}
+
+v1::SensorReply SensorService::serve(const v1::SensorRequest& request) {
+    v1::SensorReply reply;
+    const auto kind = request.call()._d();
+    switch (kind) {
+        case v1::SENSOR_SET_FILTERS:
+            reply.result().set_filters({});
+            if (!request.call().set_filters().filters().empty()) {
+                refuse(reply, v1::STATUS_UNSUPPORTED,
+                       "field set_filters.filters: this version has no filters");
+            }
+            break;
+        case v1::SENSOR_SET_RATE: {
+            reply.result().set_rate({});
+            const double rate = request.call().set_rate().rate();
+            if (!std::isfinite(rate) || rate > fastest_rate || (rate != 0 && rate < slowest_rate)) {
+                refuse(reply, v1::STATUS_INVALID_ARGUMENT,
+                       "field set_rate.rate is " + std::to_string(rate) +
+                           ", must be 0 or 0.001 to 1000");
+            } else {
+                pacer_.set_rate(rate);
+            }
+            break;
+        }
+        case v1::SENSOR_PAUSE:
+            reply.result().pause({});
+            pacer_.pause();
+            break;
+        case v1::SENSOR_RESUME:
+            reply.result().resume({});
+            pacer_.resume();
+            break;
+        case v1::SENSOR_GET_STATUS:
+            reply.result().get_status(status());
+            break;
+        default:
+            reply.result().get_status(status());
+            reply.header().remote_exception(v1::REMOTE_UNKNOWN_OPERATION);
+            refuse(reply, v1::STATUS_UNSUPPORTED,
+                   "call " + std::to_string(static_cast<int>(kind)) + " is unknown");
+    }
+    changed_ = true;
+    return reply;
+}
+
+v1::ServiceState SensorService::service_state() const {
+    switch (publisher_->state()) {
+        case EventPublisher::State::waiting:
+            return v1::SERVICE_WAITING;
+        case EventPublisher::State::running:
+            return pacer_.paused() ? v1::SERVICE_PAUSED : v1::SERVICE_RUNNING;
+        case EventPublisher::State::finished:
+            return v1::SERVICE_FINISHED;
+        case EventPublisher::State::failed:
+            break;
+    }
+    return v1::SERVICE_FAULT;
+}
+
+v1::SensorStatus SensorService::status() const {
+    const auto& counts = publisher_->counts();
+    v1::SensorStatus status;
+    status.instance(instance_);
+    status.sensor_id(config_.sensor_id());
+    status.health(health_.snapshot(participant_->counts()));
+    status.source(bounded(source_name(config_), 255));
+    status.stream_id(counts.stream_id);
+    status.width(static_cast<std::uint16_t>(counts.size >> 16));
+    status.height(static_cast<std::uint16_t>(counts.size & 0xffff));
+    status.rate(pacer_.rate());
+    status.last_t_us(counts.last_t_us);
+    status.events_in(counts.events_in);
+    status.events_out(counts.events_out);
+    status.packets_out(counts.packets_out);
+    status.events_dropped(counts.events_unsent);
+    const auto cause = [&](const char* name, std::uint64_t count) {
+        v1::NamedCount entry;
+        entry.name(name);
+        entry.count(count);
+        status.dropped_by().push_back(entry);
+    };
+    cause("events.write_failed", counts.events_unsent);
+    cause("packets.unacknowledged", counts.packets_unacknowledged);
+    status.event_rate_hz(event_rate_hz_);
+    status.lag_us(static_cast<double>(pacer_.lag_us()));
+    status.subscribers(static_cast<std::uint32_t>(events_->matched()));
+    return status;
+}
+
+void SensorService::tick() {
+    const auto now_ns = clock_.steady_ns();
+    const auto state = service_state();
+    const bool due = now_ns - last_status_ns_ >= status_period_ns;
+    if (!due && !changed_.exchange(false) && state == last_state_) return;
+    if (due) {
+        const auto events_out = publisher_->counts().events_out.load();
+        const auto period_ns = static_cast<double>(now_ns - last_status_ns_);
+        event_rate_hz_ =
+            last_status_ns_ == 0
+                ? 0.0
+                : static_cast<double>(events_out - events_at_last_status_) * 1e9 / period_ns;
+        events_at_last_status_ = events_out;
+        last_status_ns_ = now_ns;
+    }
+    last_state_ = state;
+    health_.state(state, status_line());
+    auto sample = status();
+    status_->write(sample);
+}
+
+bool SensorService::finished() const {
+    const auto state = publisher_->state();
+    return config_.exit_at_end() &&
+           (state == EventPublisher::State::finished || state == EventPublisher::State::failed);
+}
+
+bool SensorService::failed() const {
+    return publisher_ != nullptr && publisher_->state() == EventPublisher::State::failed;
+}
+
+std::string SensorService::status_line() const {
+    switch (publisher_->state()) {
+        case EventPublisher::State::waiting:
+            return "waiting for " + std::to_string(config_.wait_for_subscribers()) +
+                   " subscriber(s) of " + topic::events;
+        case EventPublisher::State::running:
+            return (pacer_.paused() ? "paused: " : "publishing ") + source_name(config_);
+        case EventPublisher::State::finished:
+            return "finished " + source_name(config_);
+        case EventPublisher::State::failed:
+            break;
+    }
+    return "the source failed: " + source_name(config_);
+}
+
+void SensorService::stop() {
+    if (publisher_) publisher_->stop();
+    if (status_ && publisher_) {
+        // The last word: what was sent in all.
+        health_.state(publisher_->state() == EventPublisher::State::failed ? v1::SERVICE_FAULT
+                                                                           : v1::SERVICE_FINISHED,
+                      status_line());
+        auto sample = status();
+        status_->write(sample);
+        status_->wait_acknowledged({0, 200'000'000});
+    }
+    requests_.reset();
+    publisher_.reset();
+    status_.reset();
+    events_.reset();
+    participant_.reset();
+}
+
+}  // namespace pursuit::sensor

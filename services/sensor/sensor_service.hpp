@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "config.pb.h"
+#include "services/common/clock.hpp"
+#include "services/common/health.hpp"
+#include "services/common/request_server.hpp"
+#include "services/common/service_main.hpp"
+#include "services/common/writer.hpp"
+#include "services/sensor/event_publisher.hpp"
+#include "services/sensor/pacer.hpp"
+
+namespace pursuit::sensor {
+
+/// The DDS shell of the sensor: publishes the events of one source, its own status at 1 Hz and on
+/// change, and serves the calls of idl/sensor_requests.idl.
+///
+/// Threads: as Service; calls come on the middleware's thread and only set the pacer.
+class SensorService final : public Service {
+ public:
+    /// Opens the source; an error is one of the configuration.
+    static Result<std::unique_ptr<Service>> make(const disk::SensorConfig& config);
+
+    Result<void> start() override;
+    void tick() override;
+    bool finished() const override;
+    bool failed() const override;
+    std::string status_line() const override;
+    void stop() override;
+
+ private:
+    SensorService(const disk::SensorConfig& config, std::unique_ptr<EventReader> source);
+
+    v1::SensorReply serve(const v1::SensorRequest& request);
+    v1::SensorStatus status() const;
+    v1::ServiceState service_state() const;
+
+    const disk::SensorConfig config_;
+    const std::string instance_;
+    SystemClock clock_;
+    Health health_;
+    Pacer pacer_;
+    std::unique_ptr<EventReader> source_;
+    std::unique_ptr<Participant> participant_;
+    std::unique_ptr<Writer<v1::EventPacket>> events_;
+    std::unique_ptr<Writer<v1::SensorStatus>> status_;
+    std::unique_ptr<EventPublisher> publisher_;
+    std::unique_ptr<RequestServer<v1::SensorRequest, v1::SensorReply>> requests_;
+    std::atomic<bool> changed_{true};
+    std::int64_t last_status_ns_ = 0;
+    std::uint64_t events_at_last_status_ = 0;
+    double event_rate_hz_ = 0;
+    v1::ServiceState last_state_ = v1::SERVICE_STARTING;
+};
+
+}  // namespace pursuit::sensor
