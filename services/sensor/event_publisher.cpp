@@ -28,6 +28,7 @@ EventPublisher::EventPublisher(const disk::SensorConfig& config, Writer<v1::Even
     : config_(config), writer_(writer), pacer_(pacer), clock_(clock), health_(health) {}
 
 void EventPublisher::start(std::unique_ptr<EventReader> source) {
+    if (config_.wait_for_subscribers() == 0) state_ = State::running;
     const auto size = source->geometry();
     counts_.size = static_cast<std::uint32_t>(size.width) << 16 | size.height;
     thread_ = std::thread([this, source = std::move(source)]() mutable { run(std::move(source)); });

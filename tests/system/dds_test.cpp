@@ -103,11 +103,11 @@ class Requests : public Dds {
 
     void SetUp() override {
         auto server = Server::create(*one_, topic::sensor_request, topic::sensor_reply, "front",
-                                     [this](v1::SensorRequest& request, Server& server) {
+                                     [this](v1::SensorRequest& request, Server& to) {
                                          ++handled_;
                                          v1::SensorReply reply;
                                          reply.outcome().message("heard");
-                                         server.answer(request.header().request_id(), reply);
+                                         to.answer(request.header().request_id(), reply);
                                      });
         ASSERT_TRUE(server);
         server_ = std::move(*server);
