@@ -1,0 +1,97 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""What is wrong is named, and disturbs nothing else."""
+
+import json
+import os
+import subprocess
+import unittest
+
+from pursuit_process import SystemTest, data, program
+
+SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
+
+
+class BadInput(SystemTest):
+    def test_a_typo_in_a_configuration_ends_with_78_and_file_line_and_field(self):
+        for service in ("sensor", "tracker", "recorder"):
+            path = self.path(f"{service}.textproto")
+            with open(path, "w") as file:
+                file.write('name: "front"\n\nno_such_key: 1\n')
+            done = subprocess.run([program("pursuit-" + service), "--config", path],
+                                  capture_output=True, text=True, timeout=10)
+            self.assertEqual(done.returncode, 78, done.stderr)
+            self.assertIn(f"{path}:3:", done.stderr)
+            self.assertIn('"no_such_key"', done.stderr)
+
+    def test_a_value_out_of_range_ends_with_78_and_file_line_and_field(self):
+        path = self.path("tracker.textproto")
+        with open(path, "w") as file:
+            file.write("pose_rate_hz: 0\n")
+        done = subprocess.run([program("pursuit-tracker"), "--config", path],
+                              capture_output=True, text=True, timeout=10)
+        self.assertEqual(done.returncode, 78, done.stderr)
+        self.assertIn(f"{path}:1: field pose_rate_hz is 0, must be at least 1", done.stderr)
+
+    def test_the_sample_configurations_are_good(self):
+        for service in ("tracker", "recorder", "sensor"):
+            path = os.path.join(SOURCE, "deploy/config", service + ".textproto")
+            done = subprocess.run([program("pursuit-" + service), "--config", path, "--check"],
+                                  capture_output=True, text=True, timeout=10)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_damaged_recording_is_named_with_offset_and_what_was_good_before_it_arrives(self):
+        damaged = data("malformed/dat_truncated_mid_event.dat")
+        tracker = self.service("tracker")
+        sensor = self.service("sensor", recording=damaged, rate=0, wait_for_subscribers=1)
+        self.assertEqual(sensor.wait(10), 1)
+        self.assertIn(f"{damaged}: byte 4093: ", sensor.err())
+        # Every whole event before the cut: 8 bytes each, behind the header's lines and 2 bytes.
+        with open(damaged, "rb") as file:
+            content = file.read()
+        header = 0
+        while content[header:header + 1] == b"%":
+            header = content.index(b"\n", header) + 1
+        good = (len(content) - header - 2) // 8
+        self.assertGreater(good, 100)
+        status = self.eventually(
+            lambda: (lambda s: s if s["events_in"] >= good else None)(self.tracker_status()),
+            what=f"{good} good events arrive")
+        self.assertEqual(status["events_in"], good)
+        self.assertEqual(status["gaps"], 0)
+        self.assertTrue(tracker.alive())
+
+    def tracker_status(self):
+        return json.loads(self.ctl("status", "--json"))["tracker"]
+
+    def test_a_malformed_sample_is_counted_and_the_next_good_request_is_served(self):
+        tracker = self.service("tracker")
+        writer = os.path.join(os.environ.get("PURSUIT_TESTS", ""), "malformed_writer")
+        done = subprocess.run([writer, str(self.domain.domain)], capture_output=True, text=True,
+                              timeout=20)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        print(done.stdout.strip())
+        sent = int(done.stdout.split()[0])
+        self.assertGreaterEqual(sent, 10)
+        counted = self.eventually(
+            lambda: (lambda n: n if n >= sent else None)(self.tracker_status()["malformed_samples"]),
+            what="every malformed sample is counted")
+        self.assertEqual(counted, sent)
+        self.assertEqual(self.ctl("model", "list").strip(), "")
+        self.assertTrue(tracker.alive())
+
+    def test_an_invalid_request_is_refused_with_field_and_bound_and_changes_nothing(self):
+        self.service("tracker")
+        path = self.path("model_bad.csv")
+        with open(path, "w") as file:
+            file.write("x_px,y_px\n0,0\n1,0\n0,1\n")
+        self.ctl("model", "register", path + "@10,10,0", "--set", "gate_px=-1", code=1)
+        self.assertIn("gate_px", self.ctl_err)
+        self.ctl("strategy", "set", "no_such_strategy", code=1)
+        self.ctl("model", "remove", "no-such-model", code=1)
+        self.assertIn("no-such-model", self.ctl_err)
+        self.assertEqual(self.ctl("model", "list").strip(), "")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
