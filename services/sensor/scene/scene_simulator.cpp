@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/sensor/scene/scene_simulator.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace pursuit::sensor {
+namespace {
+
+/// A pixel is a square of side 1: its variance comes on top of the optics'.
+constexpr double pixel_variance_px2 = 1.0 / 12;
+
+/// How far edges may move before the pixels near them are found anew.
+constexpr double mark_margin_px = 0.4;
+
+/// A resting layer that has moved by this much is a moving one.
+constexpr double rest_px = 0.02;
+
+/// No step is longer, so that motion that begins is noticed; nor goes a slow layer longer without
+/// being looked at, nor a mark without being renewed.
+constexpr std::int64_t longest_step_us = 1000;
+constexpr std::int64_t longest_unseen_us = 5000;
+constexpr std::int64_t longest_mark_us = 50000;
+
+/// A step may be this much longer than wanted before it is tried again.
+constexpr double step_slack = 1.05;
+
+double sigma_px(const disk::SceneSensor& sensor) {
+    return std::sqrt(sensor.blur_px() * sensor.blur_px() + pixel_variance_px2);
+}
+
+std::vector<Point> bounding_corners(const DrawnLayer& layer) {
+    Point low = layer.polygons.front().vertices.front();
+    Point high = low;
+    for (const auto& polygon : layer.polygons) {
+        for (const Point& v : polygon.vertices) {
+            low = low.cwiseMin(v);
+            high = high.cwiseMax(v);
+        }
+    }
+    return {low, high, {low.x(), high.y()}, {high.x(), low.y()}};
+}
+
+}  // namespace
+
+SceneSimulator::SceneSimulator(const Scene& scene, std::uint64_t seed)
+    : drawn_(draw_scene(scene, seed)),
+      models_(draw_models(scene, drawn_, seed)),
+      edges_(drawn_, sigma_px(drawn_.sensor)),
+      active_(drawn_.geometry, drawn_.background_reflectance, mark_margin_px) {
+    if (scene.description().duration_s() > 0) {
+        duration_us_ = std::llround(scene.description().duration_s() * 1e6);
+    }
+    for (std::size_t i = 0; i < drawn_.layers.size(); ++i) {
+        const DrawnLayer& layer = drawn_.layers[i];
+        LayerState state;
+        const bool fixed =
+            layer.polygons.empty() || (layer.trajectory.constant() && drawn_.camera.constant());
+        state.motion = fixed ? LayerMotion::fixed : LayerMotion::moving;
+        if (!layer.polygons.empty()) state.corners = bounding_corners(layer);
+        state.now = state.next = state.looked = state.marked = image_from_layer(drawn_, layer, 0);
+        edges_.place(i, state.now);
+        layers_.push_back(std::move(state));
+    }
+    pixels_.emplace(drawn_.geometry, drawn_.sensor, seed, active_.brightness_of_all(edges_));
+    mark();
+}
+
+std::vector<TruthRow> SceneSimulator::truth(std::int64_t t_us) const {
+    return truth_at(drawn_, t_us);
+}
+
+/// How far anything of the layer that is in the image moves between two maps: at most as far as
+/// the corners of its bounding box, and as what is at the corners of the image.
+double SceneSimulator::displacement_px(const LayerState& layer, const PlanarMap& a,
+                                       const PlanarMap& b) const {
+    double of_box = 0;
+    for (const Point& corner : layer.corners) {
+        of_box = std::max(of_box, (b * corner - a * corner).norm());
+    }
+    if (of_box < 1e-9) return 0;
+    const double border = 8;
+    const double right = drawn_.geometry.width + border;
+    const double bottom = drawn_.geometry.height + border;
+    const PlanarMap layer_from_image{a.matrix.inverse()};
+    double of_image = 0;
+    for (const Point& p : {Point(-border, -border), Point(right, -border), Point(-border, bottom),
+                           Point(right, bottom)}) {
+        of_image = std::max(of_image, (b * (layer_from_image * p) - p).norm());
+    }
+    return std::min(of_box, of_image);
+}
+
+/// Places every layer one step ahead and returns that time.
+std::int64_t SceneSimulator::place_next() {
+    const double wanted_px = drawn_.sensor.max_step_px();
+    double step_us = static_cast<double>(std::min(2 * step_us_, longest_step_us));
+    for (;;) {
+        const auto whole_us = std::max<std::int64_t>(static_cast<std::int64_t>(step_us), 1);
+        const std::int64_t t_us = now_us_ + whole_us;
+        double furthest_px = 0;
+        for (std::size_t i = 0; i < layers_.size(); ++i) {
+            LayerState& layer = layers_[i];
+            if (layer.motion == LayerMotion::fixed) continue;
+            layer.next =
+                image_from_layer(drawn_, drawn_.layers[i], static_cast<double>(t_us) / 1e6);
+            layer.step_px = displacement_px(layer, layer.now, layer.next);
+            furthest_px = std::max(furthest_px, layer.step_px);
+        }
+        if (furthest_px <= wanted_px * step_slack || whole_us == 1) {
+            step_us_ = whole_us;
+            return t_us;
+        }
+        step_us = std::max(step_us * wanted_px / furthest_px, 1.0);
+    }
+}
+
+bool SceneSimulator::mark_needed() const {
+    if (now_us_ - marked_us_ >= longest_mark_us) return true;
+    return std::any_of(layers_.begin(), layers_.end(), [&](const LayerState& layer) {
+        if (layer.motion == LayerMotion::fixed) return false;
+        const double allowed_px =
+            layer.motion == LayerMotion::resting ? rest_px : active_.margin_px();
+        return displacement_px(layer, layer.marked, layer.now) > allowed_px;
+    });
+}
+
+void SceneSimulator::mark() {
+    std::vector<LayerMotion> motions;
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+        LayerState& layer = layers_[i];
+        if (layer.motion != LayerMotion::fixed) {
+            const bool moved = now_us_ == 0 || !(layer.marked == layer.now);
+            layer.motion = moved ? LayerMotion::moving : LayerMotion::resting;
+            layer.marked = layer.now;
+            edges_.place(i, layer.now);
+        }
+        motions.push_back(layer.motion);
+    }
+    active_.mark(edges_, motions);
+    marked_us_ = now_us_;
+}
+
+/// Lets the pixels near layers that have moved far enough look at them.
+void SceneSimulator::look(std::int64_t before_us, bool marked) {
+    const double wanted_px = drawn_.sensor.max_step_px();
+    std::uint64_t due = 0;
+    std::int64_t since_us = before_us;
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+        LayerState& layer = layers_[i];
+        const double moved_px = layer.motion == LayerMotion::moving
+                                    ? displacement_px(layer, layer.looked, layer.now)
+                                    : 0;
+        if (moved_px == 0) {
+            layer.looked_us = now_us_;
+            continue;
+        }
+        const bool late = now_us_ - layer.looked_us >= longest_unseen_us;
+        if (!late && !marked && moved_px + layer.step_px <= wanted_px) continue;
+        due |= std::uint64_t{1} << (i % 64);
+        since_us = std::min(since_us, layer.looked_us);
+        if (!marked) edges_.place(i, layer.now);
+        layer.looked = layer.now;
+        layer.looked_us = now_us_;
+    }
+    if (due == 0) return;
+    // A pixel that stays blind over the next looks as well: what it sees now is forgotten.
+    const std::int64_t in_vain_us = now_us_ + std::max(4 * step_us_, 2 * (now_us_ - since_us));
+    for (const auto& pixel : active_.pixels()) {
+        if ((pixel.layers & due) == 0) continue;
+        if (pixels_->blind_beyond(pixel.index, in_vain_us)) continue;
+        pixels_->look(pixel.index, since_us, now_us_, active_.brightness(edges_, pixel), pending_);
+    }
+}
+
+/// Nothing will be seen any more that happened before this time.
+std::int64_t SceneSimulator::settled_us() const {
+    std::int64_t settled_us = now_us_;
+    for (const LayerState& layer : layers_) settled_us = std::min(settled_us, layer.looked_us);
+    return settled_us;
+}
+
+void SceneSimulator::step() {
+    const std::int64_t before_us = now_us_;
+    now_us_ = place_next();
+    for (LayerState& layer : layers_) layer.now = layer.next;
+    pixels_->noise(now_us_, pending_);
+    const bool marking = mark_needed();
+    if (marking) mark();
+    look(before_us, marking);
+}
+
+bool SceneSimulator::next(std::int64_t slice_us, std::vector<Event>& events) {
+    if (duration_us_ && time_us_ >= *duration_us_) return false;
+    std::int64_t end_us = time_us_ + std::max<std::int64_t>(slice_us, 1);
+    if (duration_us_) end_us = std::min(end_us, *duration_us_);
+    while (settled_us() < end_us + pixels_->greatest_lead_us()) step();
+
+    const auto later = std::partition(pending_.begin(), pending_.end(),
+                                      [&](const Event& e) { return e.t_us < end_us; });
+    const auto in_order = [](const Event& a, const Event& b) {
+        if (a.t_us != b.t_us) return a.t_us < b.t_us;
+        if (a.y != b.y) return a.y < b.y;
+        if (a.x != b.x) return a.x < b.x;
+        return a.polarity < b.polarity;
+    };
+    std::sort(pending_.begin(), later, in_order);
+    events.insert(events.end(), pending_.begin(), later);
+    pending_.erase(pending_.begin(), later);
+    time_us_ = end_us;
+    return true;
+}
+
+}  // namespace pursuit::sensor

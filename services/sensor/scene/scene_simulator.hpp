@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/common/event.hpp"
+#include "services/sensor/scene/active_pixels.hpp"
+#include "services/sensor/scene/drawn_scene.hpp"
+#include "services/sensor/scene/image_edges.hpp"
+#include "services/sensor/scene/pixel_array.hpp"
+#include "services/sensor/scene/truth.hpp"
+
+namespace pursuit::sensor {
+
+/// Makes the events of a scene, slice by slice, for as long as wanted.
+///
+/// Time goes in steps within which nothing moves by more than SceneSensor.max_step_px. In each step
+/// the pixels near moving edges look at their exact, antialiased brightness; the others see no
+/// change. A layer that moves slowly beside a fast one is looked at less often.
+///
+/// The same scene and seed give the same events, however they are cut into slices. Memory is
+/// bounded by the size of the pixel array, the length of the contours in it, and the events of one
+/// slice. Not for use by several threads at once.
+class SceneSimulator {
+ public:
+    SceneSimulator(const Scene& scene, std::uint64_t seed);
+
+    Geometry geometry() const { return drawn_.geometry; }
+
+    /// None: it never ends.
+    std::optional<std::int64_t> duration_us() const { return duration_us_; }
+
+    /// Appends the events of the next `slice_us` (at least 1) in order: by time, then row, column.
+    /// False: the scene had already ended, nothing was appended.
+    bool next(std::int64_t slice_us, std::vector<Event>& events);
+
+    /// Every event before this time has been handed out.
+    std::int64_t time_us() const { return time_us_; }
+
+    /// What is tracked, in the order of the layers; its start pose is that of time 0.
+    const std::vector<SceneModel>& models() const { return models_; }
+
+    /// Where every tracked object is, for sensor time `t_us`.
+    std::vector<TruthRow> truth(std::int64_t t_us) const;
+
+    /// What the seed has made of the scene.
+    const DrawnScene& drawn() const { return drawn_; }
+
+ private:
+    struct LayerState {
+        LayerMotion motion = LayerMotion::fixed;
+        std::vector<Point> corners;  // of its bounding box, layer frame
+        PlanarMap now;
+        PlanarMap next;
+        PlanarMap looked;  // when its pixels were last looked at
+        std::int64_t looked_us = 0;
+        PlanarMap marked;  // at the last mark()
+        double step_px = 0;
+    };
+
+    double displacement_px(const LayerState& layer, const PlanarMap& a, const PlanarMap& b) const;
+    void step();
+    std::int64_t settled_us() const;
+    std::int64_t place_next();
+    bool mark_needed() const;
+    void mark();
+    void look(std::int64_t t_us, bool marked);
+
+    DrawnScene drawn_;
+    std::optional<std::int64_t> duration_us_;
+    std::vector<SceneModel> models_;
+    ImageEdges edges_;
+    ActivePixels active_;
+    std::vector<LayerState> layers_;
+    std::optional<PixelArray> pixels_;
+
+    std::int64_t now_us_ = 0;   // the last step
+    std::int64_t step_us_ = 1;  // its length
+    std::int64_t marked_us_ = 0;
+    std::int64_t time_us_ = 0;
+    std::vector<Event> pending_;  // not yet handed out, not in order
+};
+
+}  // namespace pursuit::sensor

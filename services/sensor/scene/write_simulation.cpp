@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/sensor/scene/write_simulation.hpp"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "services/common/text_format.hpp"
+#include "services/sensor/scene/scene_simulator.hpp"
+
+namespace pursuit::sensor {
+namespace {
+
+constexpr std::int64_t truth_period_us = 1000;
+constexpr std::int64_t slice_us = 10 * truth_period_us;
+
+__attribute__((format(printf, 2, 3))) void print(std::string& out, const char* format, ...) {
+    char line[512];
+    va_list values;
+    va_start(values, format);
+    const int length = std::vsnprintf(line, sizeof line, format, values);
+    va_end(values);
+    out.append(line, static_cast<std::size_t>(std::clamp<int>(length, 0, sizeof line - 1)));
+}
+
+std::string points_csv(const ContourModel& model) {
+    std::string csv = "x_px,y_px\n";
+    for (const Point& p : model.points) print(csv, "%.6f,%.6f\n", p.x(), p.y());
+    return csv;
+}
+
+std::string edges_csv(const ContourModel& model) {
+    std::string csv = "from,to\n";
+    for (const auto& [from, to] : model.edges) print(csv, "%u,%u\n", from, to);
+    return csv;
+}
+
+std::string start_csv(const std::vector<SceneModel>& models, Geometry geometry) {
+    std::string csv =
+        "object,x_px,y_px,theta_rad,scale,mode,error_x_px,error_y_px,error_theta_rad,error_scale\n";
+    for (const auto& m : models) {
+        if (m.search) {
+            print(csv, "%s,%.3f,%.3f,0,1,search,,,,\n", m.name.c_str(), geometry.width / 2.0,
+                  geometry.height / 2.0);
+        } else {
+            print(csv, "%s,%.6f,%.6f,%.8f,%.8f,pose,%.6f,%.6f,%.8f,%.8f\n", m.name.c_str(),
+                  m.start.x_px, m.start.y_px, m.start.theta_rad,
+                  (m.start.scale_x + m.start.scale_y) / 2, m.error_x_px, m.error_y_px,
+                  m.error_theta_rad, m.error_scale);
+        }
+    }
+    return csv;
+}
+
+void print_truth(std::string& csv, const TruthRow& row) {
+    print(csv, "%lld,%u,%s,%.6f,%.6f,%.9f,%.9f,%.9f,%.9f,%.8f,%.8f,%.8f,%.4f\n",
+          static_cast<long long>(row.t_us), row.object_id, row.model.c_str(), row.x_px, row.y_px,
+          row.a00, row.a01, row.a10, row.a11, row.theta_rad, row.scale_x, row.scale_y,
+          row.visible_fraction);
+}
+
+Result<void> write_models_of(const SceneSimulator& simulator, const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) return fail(folder + ": cannot be made: " + error.message());
+    const auto write = [&](const std::string& name, const std::string& content) {
+        return write_file_atomically((std::filesystem::path(folder) / name).string(), content);
+    };
+    for (const auto& m : simulator.models()) {
+        if (auto ok = write("model_" + m.name + ".csv", points_csv(m.model)); !ok) return ok;
+        if (auto ok = write("model_" + m.name + "_edges.csv", edges_csv(m.model)); !ok) return ok;
+        if (m.model.points == m.true_model.points) continue;
+        if (auto ok = write("model_true_" + m.name + ".csv", points_csv(m.true_model)); !ok) {
+            return ok;
+        }
+    }
+    return write("start.csv", start_csv(simulator.models(), simulator.geometry()));
+}
+
+}  // namespace
+
+Result<void> write_models(const Scene& scene, std::uint64_t seed, const std::string& models_dir) {
+    return write_models_of(SceneSimulator(scene, seed), models_dir);
+}
+
+Result<SimulationSummary> write_simulation(const Scene& scene, std::uint64_t seed,
+                                           const EventSink& events, const SimulationFiles& files) {
+    SceneSimulator simulator(scene, seed);
+    SimulationSummary summary;
+    if (files.duration_s) {
+        summary.duration_us = static_cast<std::int64_t>(*files.duration_s * 1e6);
+    } else if (simulator.duration_us()) {
+        summary.duration_us = *simulator.duration_us();
+    } else {
+        return fail(scene.description().name() + ": never ends: state a duration");
+    }
+    if (files.models_dir) {
+        if (auto ok = write_models_of(simulator, *files.models_dir); !ok) {
+            return tl::unexpected(ok.error());
+        }
+    }
+
+    std::ofstream truth(files.truth_path, std::ios::binary | std::ios::trunc);
+    std::string csv =
+        "t_us,object_id,model,x_px,y_px,a00,a01,a10,a11,theta_rad,scale_x,scale_y,"
+        "visible_fraction\n";
+    const auto write_truth = [&] {
+        truth << csv;
+        csv.clear();
+        return truth.good();
+    };
+    std::vector<Event> slice;
+    std::int64_t truth_us = 0;
+    for (;;) {
+        for (; truth_us <= std::min(simulator.time_us(), summary.duration_us);
+             truth_us += truth_period_us) {
+            for (const auto& row : simulator.truth(truth_us)) print_truth(csv, row);
+        }
+        if (!write_truth()) return fail(files.truth_path + ": cannot be written");
+        const std::int64_t left_us = summary.duration_us - simulator.time_us();
+        slice.clear();
+        if (left_us <= 0 || !simulator.next(std::min(slice_us, left_us), slice)) break;
+        if (auto ok = events(slice); !ok) return tl::unexpected(ok.error());
+        summary.events += slice.size();
+    }
+    truth.close();
+    if (!truth) return fail(files.truth_path + ": cannot be written");
+    summary.duration_us = simulator.time_us();
+    return summary;
+}
+
+}  // namespace pursuit::sensor
