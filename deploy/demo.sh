@@ -80,7 +80,7 @@ service sensor "${source[@]}" "rate=$rate" wait_for_subscribers=2
 sensor=$!
 
 say "poses, live"
-ctl poses --while-sensor &
+ctl poses &
 viewer=$!
 pids+=("$viewer")
 
@@ -91,6 +91,7 @@ sleep 2
 ctl strategy set closest
 
 wait "$sensor" || { cat "$work/sensor.log" >&2; exit 1; }
+kill -INT "$viewer"
 wait "$viewer" || true
 kill "$recorder"
 wait "$recorder" || { cat "$work/recorder.log" >&2; exit 1; }

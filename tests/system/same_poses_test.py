@@ -3,6 +3,7 @@
 """The same events give the same poses, bit for bit: offline, live, live again, and replayed."""
 
 import csv
+import os
 import unittest
 
 from pursuit_process import SystemTest, data
@@ -16,6 +17,11 @@ def rows(path):
 class SamePoses(SystemTest):
     """On the real recording of a passing car where it is there, and on a simulated star."""
 
+    def wait_listening(self, name):
+        """pursuitctl writes the header when it has found the tracker."""
+        self.eventually(lambda: os.path.exists(self.path(name)) and
+                        os.path.getsize(self.path(name)) > 0, what="the tracker is found")
+
     def live(self, name, sensor_fields, model, transform, count, record=None):
         """One run through real processes; gives the lines of the poses that arrived."""
         recorder = self.service("recorder", output=record) if record else None
@@ -23,7 +29,7 @@ class SamePoses(SystemTest):
         self.ctl("model", "register", model, "--transform", transform)
         poses = self.start("pursuitctl", *self.ctl_arguments(
             "poses", "--csv", self.path(name), "--count", count, "--for", 30), ready=False)
-        self.ctl("wait", "--subscribers", "pursuit/poses", "--at-least", 2 if record else 1)
+        self.wait_listening(name)
         sensor = self.service("sensor", wait_for_subscribers=2 if record else 1, **sensor_fields)
         self.assertEqual(sensor.wait(60), 0, sensor.err())
         self.assertEqual(poses.wait(40), 0, poses.err())
@@ -35,7 +41,7 @@ class SamePoses(SystemTest):
         tracker = self.service("tracker")
         poses = self.start("pursuitctl", *self.ctl_arguments(
             "poses", "--csv", self.path(name), "--count", count, "--for", 30), ready=False)
-        self.ctl("wait", "--subscribers", "pursuit/poses", "--at-least", 1)
+        self.wait_listening(name)
         recorder = self.service("recorder", replay=recording)
         self.assertEqual(recorder.wait(60), 0, recorder.err())
         self.assertEqual(poses.wait(40), 0, poses.err())
