@@ -6,6 +6,7 @@
 
 #include "services/sensor/formats/formats.hpp"
 #include "services/sensor/range_reader.hpp"
+#include "services/sensor/scene_reader.hpp"
 
 namespace pursuit::sensor {
 namespace {
@@ -31,8 +32,8 @@ Result<std::unique_ptr<EventReader>> open_source(const disk::SensorConfig& confi
     }
     const auto range = range_of(config);
     if (!range) return tl::unexpected(range.error());
-    if (!config.scene().empty()) return fail("scenes are not there yet: name a recording");
-    auto source = open_events(config.recording());
+    auto source = config.scene().empty() ? open_events(config.recording())
+                                         : open_scene(config.scene(), config.seed());
     if (!source) return source;
     return in_range(std::move(*source), *range);
 }

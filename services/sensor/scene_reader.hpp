@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "services/sensor/formats/event_reader.hpp"
+#include "services/sensor/scene/scene_simulator.hpp"
+
+namespace pursuit::sensor {
+
+/// A simulated scene as a source of events: the same ones for the same scene and seed, made while
+/// they are read. A scene in which nothing happens for an hour of its time ends there, so that
+/// reading always returns.
+class SceneReader final : public EventReader {
+ public:
+    SceneReader(const Scene& scene, std::uint64_t seed) : simulator_(scene, seed) {}
+
+    Geometry geometry() const override { return simulator_.geometry(); }
+
+ protected:
+    Decoded decode(std::span<Event> events) override;
+
+ private:
+    SceneSimulator simulator_;
+    std::vector<Event> slice_;
+    std::size_t taken_ = 0;  // of the slice
+};
+
+/// The scene of a file, or of a built-in name.
+Result<std::unique_ptr<EventReader>> open_scene(const std::string& scene, std::uint64_t seed);
+
+}  // namespace pursuit::sensor
