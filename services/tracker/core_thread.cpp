@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core_thread.hpp"
+
+#include <utility>
+#include <variant>
+
+namespace pursuit::tracker {
+
+CoreThread::CoreThread(std::unique_ptr<TrackerSession> session, TrackerQueue& queue,
+                       StoreWriter& store, Reply reply)
+    : session_(std::move(session)), queue_(queue), store_(store), reply_(std::move(reply)) {}
+
+void CoreThread::start() {
+    figures_ = session_->figures();
+    post_state();
+    thread_ = std::thread([this] { run(); });
+}
+
+void CoreThread::stop() {
+    queue_.close();
+    if (!thread_.joinable()) return;
+    thread_.join();
+    figures_ = session_->figures();
+    post_state();
+}
+
+SessionFigures CoreThread::figures() {
+    figures_wanted_ = true;
+    queue_.wake();
+    const std::scoped_lock lock(mutex_);
+    return figures_;
+}
+
+void CoreThread::store_poses() {
+    store_wanted_ = true;
+    queue_.wake();
+}
+
+void CoreThread::run() {
+    for (;;) {
+        auto work = queue_.pop();
+        if (!work) {
+            if (queue_.closed()) return;
+            serve_wishes();
+            continue;
+        }
+        if (auto* packet = std::get_if<v1::EventPacket>(&*work)) {
+            session_->take(*packet);
+        } else {
+            auto& request = std::get<v1::TrackerRequest>(*work);
+            const v1::RequestId id = request.header().request_id();
+            reply_(id, session_->answer(request));
+        }
+        if (session_->revision() != stored_revision_) post_state();
+    }
+}
+
+void CoreThread::serve_wishes() {
+    if (figures_wanted_.exchange(false)) {
+        SessionFigures now = session_->figures();
+        const std::scoped_lock lock(mutex_);
+        figures_ = std::move(now);
+    }
+    if (!store_wanted_.exchange(false) || !store_.keeps()) return;
+    const SessionFigures now = session_->figures();
+    if (now.last_t_us == stored_t_us_ && now.stream_id == stored_stream_id_) return;
+    post_state();
+}
+
+void CoreThread::post_state() {
+    stored_revision_ = session_->revision();
+    if (!store_.keeps()) return;
+    StoredState state = session_->stored_state();
+    stored_t_us_ = state.last_t_us;
+    stored_stream_id_ = state.stream_id;
+    store_.post(std::move(state));
+}
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "services/tracker/store_writer.hpp"
+#include "services/tracker/tracker_session.hpp"
+#include "services/tracker/work_queue.hpp"
+
+namespace pursuit::tracker {
+
+using TrackerQueue = WorkQueue<v1::EventPacket, v1::TrackerRequest>;
+
+/// The thread that runs a session: takes work from the queue, gives replies away, and hands the
+/// state to the store after each change and figures to whoever asked.
+///
+/// Threads: the session belongs to this thread from start() to stop(); the rest is for any.
+class CoreThread {
+ public:
+    using Reply = std::function<void(const v1::RequestId&, v1::TrackerReply)>;
+
+    CoreThread(std::unique_ptr<TrackerSession> session, TrackerQueue& queue, StoreWriter& store,
+               Reply reply);
+    ~CoreThread() { stop(); }
+    CoreThread(const CoreThread&) = delete;
+    CoreThread& operator=(const CoreThread&) = delete;
+
+    void start();
+    /// Ends after the piece of work in hand; hands the last state to the store.
+    void stop();
+
+    /// Those of the last time they were asked for; asks for new ones.
+    SessionFigures figures();
+    /// Hands the poses to the store, if event time has gone on since they were last.
+    void store_poses();
+
+ private:
+    void run();
+    void serve_wishes();
+    void post_state();
+
+    std::unique_ptr<TrackerSession> session_;
+    TrackerQueue& queue_;
+    StoreWriter& store_;
+    Reply reply_;
+    std::atomic<bool> figures_wanted_{false};
+    std::atomic<bool> store_wanted_{false};
+    std::uint64_t stored_revision_ = 0;
+    std::int64_t stored_t_us_ = -1;
+    std::uint64_t stored_stream_id_ = 0;
+    std::mutex mutex_;
+    SessionFigures figures_;
+    std::thread thread_;
+};
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/start_settings.hpp"
+
+#include <string>
+
+#include "services/tracker/model_file.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+Result<Registration> configured_model(const std::string& argument, EstimatorKind estimator) {
+    auto parsed = parse_model_argument(argument);
+    if (!parsed) return tl::unexpected(parsed.error());
+    auto file = read_model_file(parsed->path);
+    if (!file) return tl::unexpected(file.error());
+    Registration registration;
+    registration.shape = std::move(file->shape);
+    registration.estimator = estimator;
+    if (parsed->start) {
+        registration.start.pose = *parsed->start;
+        if (scale_x(parsed->start->a) != 1) registration.transform = TransformKind::similarity;
+    } else if (file->origin_px) {
+        registration.start.pose.t_px = *file->origin_px;
+    } else {
+        registration.start.search = true;
+    }
+    return registration;
+}
+
+}  // namespace
+
+Result<Tracker> configured_tracker(const disk::TrackerConfig& config,
+                                   std::uint32_t next_object_id) {
+    TrackerOptions options;
+    options.pose_rate_hz = config.pose_rate_hz();
+    options.max_poses_per_s = config.max_poses_per_s();
+    options.max_objects = config.max_objects();
+    options.preset = config.preset();
+    options.emit_updates = config.pose_tracks();
+    options.next_object_id = next_object_id;
+    auto made = Tracker::create(options);
+    if (!made) return fail(made.error().message);
+    if (config.has_strategy()) {
+        const auto strategy = parse_strategy(config.strategy());
+        if (!strategy) {
+            return fail("field strategy: unknown \"" + config.strategy() + "\", must be " +
+                        strategy_names());
+        }
+        if (auto set = made->set_strategy(*strategy, {}); !set) {
+            return fail("field strategy: " + set.error().message);
+        }
+    }
+    for (const auto& parameter : config.parameter()) {
+        const NamedValue value{parameter.name(), parameter.value()};
+        if (auto set = made->set_parameters("", std::span(&value, 1)); !set) {
+            return fail("field parameter: " + set.error().message);
+        }
+    }
+    return std::move(*made);
+}
+
+Result<std::vector<Registration>> configured_models(const disk::TrackerConfig& config) {
+    const auto preset = find_preset(config.preset());
+    if (!preset) return fail("field preset: " + preset.error().message);
+    std::vector<Registration> registrations;
+    for (const auto& argument : config.model()) {
+        auto registration = configured_model(argument, (*preset)->estimator);
+        if (!registration) return fail("field model: " + registration.error().message);
+        registrations.push_back(std::move(*registration));
+    }
+    return registrations;
+}
+
+}  // namespace pursuit::tracker

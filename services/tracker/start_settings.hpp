@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "config.pb.h"
+#include "services/common/result.hpp"
+#include "services/tracker/core/tracker.hpp"
+
+namespace pursuit::tracker {
+
+/// A tracker with the constants that the configuration states, and no object. Ids below
+/// `next_object_id` were used before. An error names the field.
+Result<Tracker> configured_tracker(const disk::TrackerConfig& config, std::uint32_t next_object_id);
+
+/// The models that the configuration names, read from their files. Without "@…" an object begins
+/// where its file says that the model was made, or is searched for. A start with a scale is tracked
+/// as a similarity, else as an isometry, by the preset's estimator. An error names file and line.
+Result<std::vector<Registration>> configured_models(const disk::TrackerConfig& config);
+
+}  // namespace pursuit::tracker

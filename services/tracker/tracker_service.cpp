@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/tracker_service.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <cstdlib>
+#include <utility>
+
+#include "services/tracker/start_settings.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+constexpr std::int64_t status_period_ns = 1'000'000'000;
+
+/// Requests that may wait for the core thread; further ones are refused at once.
+constexpr std::size_t most_waiting_requests = 256;
+
+std::string store_path(const disk::TrackerConfig& config) {
+    if (!config.store().empty()) return config.store();
+    // systemd.exec(5): the folders of StateDirectory=, separated by colons.
+    const char* folders = std::getenv("STATE_DIRECTORY");
+    if (folders == nullptr || *folders == '\0') return "";
+    const std::string first(folders);
+    return first.substr(0, first.find(':')) + "/tracker.store";
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Service>> TrackerService::make(const disk::TrackerConfig& config) {
+    auto models = configured_models(config);
+    if (!models) return tl::unexpected(models.error());
+    auto tried = configured_tracker(config, 1);
+    if (!tried) return tl::unexpected(tried.error());
+    for (const auto& model : *models) {
+        const auto registered = tried->register_object(model);
+        if (!registered) {
+            return fail("field model: " + model.shape.name + ": " + registered.error().message);
+        }
+    }
+    return std::unique_ptr<Service>(new TrackerService(config, std::move(*models)));
+}
+
+TrackerService::TrackerService(const disk::TrackerConfig& config, std::vector<Registration> models)
+    : config_(config),
+      models_(std::move(models)),
+      identity_{config.name().empty() ? "default" : config.name(), config.sensor_id()},
+      health_(config),
+      queue_(config.queue_packets(), most_waiting_requests) {}
+
+Result<void> TrackerService::start() {
+    auto participant = Participant::create(config_.dds(), "pursuit-tracker", config_.name());
+    if (!participant) return tl::unexpected(participant.error());
+    participant_ = std::move(*participant);
+    if (auto open = open_writers(); !open) return open;
+
+    const std::string path = store_path(config_);
+    std::optional<StoredState> stored;
+    if (!path.empty()) {
+        auto read = read_store(path);
+        if (!read) {
+            health_.error(read.error().message + "; no object is restored");
+        } else {
+            stored = std::move(*read);
+        }
+    }
+    auto tracker = configured_tracker(config_, stored ? stored->next_object_id : 1);
+    if (!tracker) return tl::unexpected(tracker.error());
+    SessionOutputs outputs{
+        [this](v1::ObjectPose& pose) { return poses_->write(pose); },
+        [this](v1::PoseTrack& track) { return tracks_->write(track); },
+        [this](v1::RegisteredModel& model) { return model_writer_->write(model); },
+        [this](v1::TrackerSettings& settings) { return settings_->write(settings); },
+        [this](const SessionFigures& figures) { return status(figures); },
+        [this](const std::string& message) { health_.error(message); },
+    };
+    store_ = std::make_unique<StoreWriter>(
+        path, [this](const std::string& message) { health_.error(message); });
+    core_ = std::make_unique<CoreThread>(
+        std::make_unique<TrackerSession>(std::move(*tracker), identity_, std::move(stored), models_,
+                                         clock_, std::move(outputs)),
+        queue_, *store_, [this](const v1::RequestId& id, v1::TrackerReply reply) {
+            requests_->answer(id, std::move(reply));
+        });
+    if (auto open = open_readers(); !open) return open;
+    core_->start();
+    publish_status();
+    return {};
+}
+
+Result<void> TrackerService::open_writers() {
+    const auto open = [&](auto& writer, const char* name) -> Result<void> {
+        using WriterType = typename std::remove_reference_t<decltype(writer)>::element_type;
+        auto made = WriterType::create(*participant_, name);
+        if (!made) return tl::unexpected(made.error());
+        writer = std::move(*made);
+        return {};
+    };
+    if (auto ok = open(poses_, topic::poses); !ok) return ok;
+    if (config_.pose_tracks()) {
+        if (auto ok = open(tracks_, topic::pose_tracks); !ok) return ok;
+    }
+    if (auto ok = open(model_writer_, topic::models); !ok) return ok;
+    if (auto ok = open(settings_, topic::tracker_settings); !ok) return ok;
+    return open(status_, topic::tracker_status);
+}
+
+Result<void> TrackerService::open_readers() {
+    auto requests = Server::create(
+        *participant_, topic::tracker_request, topic::tracker_reply, identity_.instance,
+        [this](v1::TrackerRequest& request, Server& server) { receive(request, server); });
+    if (!requests) return tl::unexpected(requests.error());
+    requests_ = std::move(*requests);
+    auto events = Reader<v1::EventPacket>::create(
+        *participant_, topic::events,
+        [this](v1::EventPacket& packet, const auto&) { receive(packet); });
+    if (!events) return tl::unexpected(events.error());
+    events_ = std::move(*events);
+    return {};
+}
+
+void TrackerService::receive(v1::EventPacket& packet) {
+    // Others do not take the room of our own.
+    if (packet.sensor_id() == identity_.sensor_id) {
+        intake_.last_packet_steady_ns = clock_.steady_ns();
+    }
+    const auto dropped = queue_.push_packet(std::move(packet));
+    if (!dropped) return;
+    intake_.dropped_packets.fetch_add(1);
+    intake_.dropped_events.fetch_add(dropped->words().size());
+}
+
+void TrackerService::receive(v1::TrackerRequest& request, Server& server) {
+    if (queue_.push_request(request)) return;
+    intake_.refused_requests.fetch_add(1);
+    auto answer = refusal(v1::STATUS_LIMIT_EXCEEDED,
+                          "requests: " + std::to_string(most_waiting_requests) + " are waiting",
+                          v1::REMOTE_OUT_OF_RESOURCES);
+    v1::TrackerReply reply;
+    reply.header().remote_exception(answer.remote_exception);
+    reply.outcome(std::move(answer.outcome));
+    server.answer(request.header().request_id(), std::move(reply));
+}
+
+v1::TrackerStatus TrackerService::status(const SessionFigures& figures) {
+    v1::TrackerStatus status =
+        tracker_status(identity_, figures, queue_.figures(), intake_, clock_);
+    status.health().state(state_of(status, figures.stream_open));
+    const std::string described = describe(status);
+    health_.state(status.health().state(), described);
+    status.health(health_.snapshot(participant_->counts()));
+    return status;
+}
+
+void TrackerService::tick() {
+    const std::int64_t now_ns = clock_.steady_ns();
+    if (now_ns - last_store_ns_ >= std::int64_t{config_.store_period_ms()} * 1'000'000) {
+        last_store_ns_ = now_ns;
+        core_->store_poses();
+    }
+    publish_status();
+}
+
+void TrackerService::publish_status() {
+    auto now = status(core_->figures());
+    described_ = now.health().detail().to_string();
+    const std::int64_t now_ns = clock_.steady_ns();
+    const bool changed = now.health().state() != last_state_ || now.objects() != last_objects_ ||
+                         now.health().errors() != last_errors_;
+    if (!changed && now_ns - last_status_ns_ < status_period_ns) return;
+    if (now.sensor_silent() && last_state_ != v1::SERVICE_FAULT) spdlog::warn("{}", described_);
+    last_status_ns_ = now_ns;
+    last_state_ = now.health().state();
+    last_objects_ = now.objects();
+    last_errors_ = now.health().errors();
+    status_->write(now);
+}
+
+void TrackerService::stop() {
+    // No more work comes in, then none is done, then what was done is kept.
+    events_.reset();
+    if (core_) core_->stop();
+    requests_.reset();
+    store_.reset();
+    core_.reset();
+}
+
+}  // namespace pursuit::tracker
