@@ -121,7 +121,7 @@ std::vector<NamedValue> values(const StrategyParameters& parameters) {
 std::span<const Preset> presets() {
     static const std::array all{Preset{"default",
                                        "one set of constants for all scenes",
-                                       EstimatorKind::gradient,
+                                       EstimatorKind::kalman,
                                        StrategyKind::closest,
                                        {},
                                        {},

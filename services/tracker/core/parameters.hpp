@@ -24,8 +24,8 @@ struct ObjectParameters {
     double gate_px = 4;
     double gradient_position_gain = 0.03;
     double gradient_angle_gain_rad_px2 = 5e-5;
-    double gradient_scale_gain_1_px = 5e-5;
-    double gradient_affine_gain_1_px2 = 2e-5;
+    double gradient_scale_gain_1_px = 1e-4;
+    double gradient_affine_gain_1_px2 = 4e-5;
 
     friend bool operator==(const ObjectParameters&, const ObjectParameters&) = default;
 };

@@ -38,9 +38,8 @@ CallResult<Shape> accepted(const Shape& shape) {
 }
 
 CallResult<void> check_supported(EstimatorKind estimator) {
-    if (estimator == EstimatorKind::gradient) return {};
-    return refuse(CallStatus::unsupported, "estimator: " + std::string(to_string(estimator)) +
-                                               " is not built into this version");
+    if (estimator == EstimatorKind::gradient || estimator == EstimatorKind::kalman) return {};
+    return refuse(CallStatus::invalid_argument, "estimator: not " + estimator_names());
 }
 
 CallResult<void> check_supported(StrategyKind strategy) {

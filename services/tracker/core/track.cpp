@@ -7,53 +7,46 @@ namespace pursuit::tracker {
 
 Track::Track(const RegisteredObject& object) { restart(object); }
 
-void Track::replace(const RegisteredObject& object) {
+void Track::make_estimator_for(const RegisteredObject& object) {
     object_id_ = object.object_id;
     name_ = object.shape.name;
     transform_ = object.transform;
-    parameters_ = object.parameters;
-    points_px_.clear();
-    for (const auto& point : object.shape.points_px) points_px_.push_back(point.cast<double>());
-    pose_ = constrained(pose_, transform_);
+    estimator_ =
+        make_estimator(object.estimator, object.transform, object.shape, object.parameters);
+}
+
+void Track::replace(const RegisteredObject& object) {
+    const PoseRecord last = record(last_event_t_us_);
+    make_estimator_for(object);
+    estimator_->restart(constrained(last.pose, transform_), last.velocity);
+}
+
+void Track::set_parameters(const ObjectParameters& parameters) {
+    estimator_->set_parameters(parameters);
 }
 
 void Track::restart(const RegisteredObject& object) {
-    replace(object);
-    pose_ = object.start.pose;
+    make_estimator_for(object);
     searching_ = object.start.search;
+    estimator_->restart(object.start.pose, object.start.velocity);
 }
 
-void Track::begin_stream() { last_event_t_us_ = 0; }
-
-double Track::nearest(const Event& event) {
-    double best = 1e300;
-    const Eigen::Vector2d p(event.x, event.y);
-    for (const auto& m : points_px_) {
-        const double d = (p - pose_.t_px - pose_.a * m).squaredNorm();
-        if (d < best) {
-            best = d;
-            nearest_model_px_ = m;
-        }
-    }
-    nearest_px_ = std::sqrt(best);
-    return nearest_px_;
+void Track::begin_stream() {
+    const PoseRecord last = record(last_event_t_us_);
+    last_event_t_us_ = 0;
+    estimator_->restart(last.pose, {});
 }
 
-void Track::update(const Event& event) {
-    const Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - pose_.t_px;
-    const Eigen::Vector2d m = pose_.a * nearest_model_px_;
-    const Eigen::Vector2d r = q - m;
-    pose_.t_px += 2 * parameters_.gradient_position_gain * r;
-    const double turn =
-        2 * parameters_.gradient_angle_gain_rad_px2 * (m.x() * q.y() - m.y() * q.x());
-    double grow = 1;
-    if (transform_ != TransformKind::isometry) {
-        grow += parameters_.gradient_scale_gain_1_px * (q.norm() - m.norm());
-    }
-    pose_.a = rotation(turn) * pose_.a * grow;
-    residual_px_ += 0.01 * (nearest_px_ - residual_px_);
+double Track::approach(const Event& event, std::int64_t since_same_us) {
+    if (searching_) return Estimator::beyond;
+    return estimator_->approach(event, since_same_us);
+}
+
+bool Track::take(const Event& event, double weight) {
+    if (!estimator_->take(weight)) return false;
     last_event_t_us_ = event.t_us;
     ++events_used_;
+    return true;
 }
 
 PoseRecord Track::record(std::int64_t t_us) const {
@@ -64,25 +57,24 @@ PoseRecord Track::record(std::int64_t t_us) const {
     record.model = name_;
     record.transform = transform_;
     record.state = searching_ ? TrackState::searching : TrackState::tracking;
-    record.pose = pose_;
-    record.theta_rad = theta_rad(pose_.a);
-    record.scale_x = scale_x(pose_.a);
-    record.scale_y = scale_y(pose_.a);
-    record.pose_covariance.fill(std::nan(""));
-    record.velocity_covariance.fill(std::nan(""));
+    estimator_->describe(t_us, record);
+    record.theta_rad = theta_rad(record.pose.a);
+    record.scale_x = scale_x(record.pose.a);
+    record.scale_y = scale_y(record.pose.a);
     record.confidence = searching_ ? 0.0F : 0.9F;
-    record.mean_residual_px = static_cast<float>(residual_px_);
     record.events_used = events_used_;
     return record;
 }
 
 TrackSnapshot Track::snapshot() const {
+    const PoseRecord last = record(last_event_t_us_);
     TrackSnapshot snapshot;
     snapshot.object_id = object_id_;
-    snapshot.state = searching_ ? TrackState::searching : TrackState::tracking;
+    snapshot.state = last.state;
     snapshot.was_tracked = !searching_ && events_used_ > 0;
     snapshot.t_us = last_event_t_us_;
-    snapshot.pose = pose_;
+    snapshot.pose = last.pose;
+    snapshot.velocity = last.velocity;
     return snapshot;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "services/tracker/core/pose_grid.hpp"
+#include "services/tracker/core/recent_pixels.hpp"
 #include "services/tracker/core/registry.hpp"
 #include "services/tracker/core/track.hpp"
 
@@ -85,20 +86,19 @@ class Tracker::Impl {
     }
 
     void process(const Event& event, PoseSink& sink) {
+        const std::int64_t since_same_us = recent.note(event);
         Track* closest = nullptr;
-        double closest_px = 0;
+        double closest_px = Estimator::beyond;
         for (Track& track : tracks) {
-            const double distance_px = track.nearest(event);
-            if (distance_px > track.gate_px()) continue;
-            if (closest != nullptr && distance_px >= closest_px) continue;
+            const double distance_px = track.approach(event, since_same_us);
+            if (distance_px >= closest_px) continue;
             closest = &track;
             closest_px = distance_px;
         }
-        if (closest == nullptr) {
+        if (closest == nullptr || !closest->take(event, 1)) {
             ++counters.events_unused;
             return;
         }
-        closest->update(event);
         ++counters.events_used;
         if (options.emit_updates) {
             sink.update({closest->object_id(), stream_id, event.t_us, closest->pose()});
@@ -120,6 +120,7 @@ class Tracker::Impl {
     std::uint64_t stream_id = 0;
     std::int64_t last_t_us = -1;
     std::deque<Change> changes;
+    RecentPixels recent;
     std::vector<Track> tracks;  // in order of ids
 };
 
@@ -149,6 +150,7 @@ void Tracker::begin_stream(Geometry geometry, std::uint64_t stream_id) {
     impl_->stream_id = stream_id;
     impl_->last_t_us = -1;
     impl_->grid.restart();
+    impl_->recent.restart(geometry);
     for (Track& track : impl_->tracks) track.begin_stream();
 }
 
@@ -222,7 +224,9 @@ CallResult<void> Tracker::set_parameters(std::string_view name,
     if (!changed) return changed;
     impl_->hold([impl = impl_.get(), objects = impl_->registry.objects()] {
         for (const RegisteredObject& object : objects) {
-            if (Track* track = impl->find_track(object.object_id)) track->replace(object);
+            if (Track* track = impl->find_track(object.object_id)) {
+                track->set_parameters(object.parameters);
+            }
         }
     });
     return {};

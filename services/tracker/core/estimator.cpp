@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/estimator.hpp"
+
+#include "services/tracker/core/gradient_estimator.hpp"
+#include "services/tracker/core/kalman_estimator.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+std::unique_ptr<Estimator> make_kalman(TransformKind transform, const Shape& shape,
+                                       const ObjectParameters& parameters) {
+    switch (transform) {
+        case TransformKind::isometry:
+            return std::make_unique<KalmanEstimator<TransformKind::isometry>>(shape, parameters);
+        case TransformKind::similarity:
+            return std::make_unique<KalmanEstimator<TransformKind::similarity>>(shape, parameters);
+        case TransformKind::paper_affine:
+            return std::make_unique<KalmanEstimator<TransformKind::paper_affine>>(shape,
+                                                                                  parameters);
+        case TransformKind::full_affine:
+            break;
+    }
+    return std::make_unique<KalmanEstimator<TransformKind::full_affine>>(shape, parameters);
+}
+
+}  // namespace
+
+std::unique_ptr<Estimator> make_estimator(EstimatorKind kind, TransformKind transform,
+                                          const Shape& shape, const ObjectParameters& parameters) {
+    if (kind == EstimatorKind::kalman) return make_kalman(transform, shape, parameters);
+    return std::make_unique<GradientEstimator>(transform, shape, parameters);
+}
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/gradient_estimator.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+namespace pursuit::tracker {
+
+GradientEstimator::GradientEstimator(TransformKind transform, const Shape& shape,
+                                     const ObjectParameters& parameters)
+    : transform_(transform), contour_(shape), parameters_(parameters) {
+    restart({}, {});
+}
+
+void GradientEstimator::restart(const Pose& pose, const Velocity&) {
+    pose_ = pose;
+    slope_.restart();
+    turned_rad_ = 0;
+    last_theta_rad_ = theta_rad(pose.a);
+    residual_px_ = 0.5;
+}
+
+void GradientEstimator::set_parameters(const ObjectParameters& parameters) {
+    parameters_ = parameters;
+}
+
+double GradientEstimator::approach(const Event& event, std::int64_t) {
+    contour_.fit(pose_.a, parameters_.gate_px);
+    q_ = Eigen::Vector2d(event.x, event.y) - pose_.t_px;
+    const Eigen::Vector2d x = pose_.a.inverse() * q_;
+    const auto nearest = contour_.points().nearest(x.x(), x.y(), ImageMetric(pose_.a));
+    if (nearest.piece < 0) return beyond;
+    distance_px_ = std::sqrt(nearest.squared_px);
+    if (distance_px_ > parameters_.gate_px) return beyond;
+    const Piece& point = contour_.points().pieces()[static_cast<std::size_t>(nearest.piece)];
+    m_ << point.ax, point.ay;
+    t_us_ = event.t_us;
+    return distance_px_;
+}
+
+bool GradientEstimator::take(double weight) {
+    if (!(weight > 0)) return false;
+    const DescentGains gains{
+        parameters_.gradient_position_gain, parameters_.gradient_angle_gain_rad_px2,
+        parameters_.gradient_scale_gain_1_px, parameters_.gradient_affine_gain_1_px2};
+    descend(pose_, transform_, gains, q_, m_, weight);
+    residual_px_ += 0.01 * weight * (distance_px_ - residual_px_);
+    if (slope_.is_due(t_us_)) {
+        const double theta = theta_rad(pose_.a);
+        turned_rad_ += std::remainder(theta - last_theta_rad_, 2 * std::numbers::pi);
+        last_theta_rad_ = theta;
+        Slope<5>::Values values;
+        values << pose_.t_px.x(), pose_.t_px.y(), turned_rad_, std::log(scale_x(pose_.a)),
+            std::log(scale_y(pose_.a));
+        slope_.add(t_us_, values);
+    }
+    return true;
+}
+
+void GradientEstimator::describe(std::int64_t, PoseRecord& record) const {
+    record.pose = pose_;
+    const auto slope = slope_.per_s();
+    record.velocity = {slope(0), slope(1), slope(2), slope(3), slope(4)};
+    record.pose_covariance.fill(std::nan(""));
+    record.velocity_covariance.fill(std::nan(""));
+    record.mean_residual_px = static_cast<float>(residual_px_);
+}
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "services/tracker/core/descent.hpp"
+#include "services/tracker/core/estimator.hpp"
+#include "services/tracker/core/slope.hpp"
+
+namespace pursuit::tracker {
+
+/// The paper's estimator: each event pulls the nearest model point towards itself (descent.hpp).
+/// The pose is that after the last event, without prediction; it has no covariance, and its
+/// velocity is the slope of the last 20 ms or so.
+class GradientEstimator : public Estimator {
+ public:
+    GradientEstimator(TransformKind transform, const Shape& shape,
+                      const ObjectParameters& parameters);
+
+    void restart(const Pose& pose, const Velocity& velocity) override;
+    void set_parameters(const ObjectParameters& parameters) override;
+    double approach(const Event& event, std::int64_t since_same_us) override;
+    bool take(double weight) override;
+    [[nodiscard]] const Pose& pose() const override { return pose_; }
+    void describe(std::int64_t t_us, PoseRecord& record) const override;
+
+ private:
+    TransformKind transform_;
+    Contour contour_;
+    ObjectParameters parameters_;
+    Pose pose_;
+    Slope<5> slope_{0.02};  // of x, y, θ (unwrapped), log sx, log sy
+    double turned_rad_ = 0;
+    double last_theta_rad_ = 0;
+    double residual_px_ = 0.5;
+
+    // What approach() found.
+    Eigen::Vector2d q_ = Eigen::Vector2d::Zero();
+    Eigen::Vector2d m_ = Eigen::Vector2d::Zero();
+    double distance_px_ = 0;
+    std::int64_t t_us_ = 0;
+};
+
+}  // namespace pursuit::tracker

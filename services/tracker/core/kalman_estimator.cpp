@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/kalman_estimator.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+namespace pursuit::tracker {
+namespace {
+
+// Of the measurement.
+constexpr double first_noise_px = 0.4;       // σ of a pixel's first event of an edge
+constexpr double subsequent_noise_px = 0.6;  // σ of those that follow
+constexpr double tail_noise_px = 1.5;        // σ added for the events that stray
+constexpr double tail_share = 0.2;
+constexpr double overshoot_px = 1;  // past a piece's end
+constexpr double least_share = 0.05;
+constexpr double same_edge_px = 8;  // a pixel's events within this way belong to one edge
+constexpr double lead_sigma_px = 0.3;
+constexpr double least_lead_px = -0.4;
+constexpr double most_lead_px = 0.7;
+constexpr double lead_drift_px2_s = 1e-3;
+
+// Of the motion.
+constexpr double kappa = 0.15;     // px^-1/2
+constexpr double still_px_s = 10;  // v0
+constexpr double start_pose_sigma_px = 1.2;
+constexpr double start_speed_sigma_px_s = 3000;
+constexpr double most_pose_sigma_px = 1.2;
+constexpr double silent_events = 10;  // expected and not come: it stands still
+
+double normal_density(double r, double variance) {
+    return std::exp(-0.5 * r * r / variance) / std::sqrt(2 * std::numbers::pi * variance);
+}
+
+}  // namespace
+
+template <TransformKind kind>
+KalmanEstimator<kind>::KalmanEstimator(const Shape& shape, const ObjectParameters& parameters)
+    : contour_(shape), parameters_(parameters) {
+    restart({}, {});
+}
+
+template <TransformKind kind>
+void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) {
+    const double per_px = 1 / (contour_.gyration_px() * std::sqrt(std::abs(pose.a.determinant())));
+    Step pose_sigma = Step::Constant(start_pose_sigma_px * per_px);
+    pose_sigma.template head<2>().setConstant(start_pose_sigma_px);
+    Step twist_sigma = Step::Constant(start_speed_sigma_px_s * per_px);
+    twist_sigma.template head<2>().setConstant(start_speed_sigma_px_s);
+    filter_.restart(pose, M::twist_of(velocity), pose_sigma, twist_sigma);
+    filter_.restart_leads(lead_sigma_px);
+    clock_.restart();
+    clutter_.restart();
+    noise_gain_ = 1;
+    t_us_ = -1;
+    way_begin_ = pose;
+    contour_.fit(pose.a, Clutter::far_to_px + 1);
+    sampled_for_area_ = 0;
+}
+
+template <TransformKind kind>
+void KalmanEstimator<kind>::set_parameters(const ObjectParameters& parameters) {
+    parameters_ = parameters;
+}
+
+template <TransformKind kind>
+double KalmanEstimator<kind>::scale() const {
+    const Eigen::Matrix2d& a = filter_.pose().a;
+    return std::sqrt(std::abs(a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0)));
+}
+
+template <TransformKind kind>
+double KalmanEstimator<kind>::effective_length_px() const {
+    // 0.6: of a contour that runs every way, the share that faces the motion.
+    return 0.6 * contour_.length_px() * scale();
+}
+
+template <TransformKind kind>
+void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
+    if (t_us_ < 0) t_us_ = t_us;
+    const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
+    if (!(dt_s > 0)) return;
+    t_us_ = t_us;
+    clock_.wait(dt_s);
+
+    const double length_px = effective_length_px();
+    const double gyration_px = contour_.gyration_px() * scale();
+    const double told_px_s = clock_.speed_px_s(length_px);
+    const double own_px_s = std::sqrt(filter_.twist().template head<2>().squaredNorm() +
+                                      M::turning_speed2(filter_.twist(), gyration_px));
+    const double at_most = std::max(std::min(own_px_s, 2 * told_px_s), told_px_s);
+    speed_px_s_ = std::sqrt(at_most * at_most + still_px_s * still_px_s);
+    const double q = kappa * kappa * speed_px_s_ * speed_px_s_ * speed_px_s_;
+    Step noise = Step::Constant(q / (gyration_px * gyration_px));
+    noise.template head<2>().setConstant(q);
+    if constexpr (kind == TransformKind::similarity) noise(3) *= 0.2 * 0.2;
+    if constexpr (kind == TransformKind::paper_affine) noise.template tail<2>() *= 0.7 * 0.7;
+    if constexpr (kind == TransformKind::full_affine) noise.template tail<4>() *= 0.7 * 0.7;
+    filter_.predict(dt_s, noise);
+
+    // Silence means standing still.
+    if (own_px_s > 0 && told_px_s < 0.6 * own_px_s) {
+        const double missed = dt_s * clock_.events_per_px(length_px) * own_px_s;
+        const double f = std::min(1.0, missed / silent_events) * (1 - told_px_s / own_px_s / 0.6);
+        filter_.slow_down(1 - f);
+        for (int i = 0; i < Filter::dof; ++i) {
+            const double unit = i < 2 ? 1 : 1 / (gyration_px * gyration_px);
+            filter_.add_variance(Filter::dof + i, f * own_px_s * own_px_s * unit);
+        }
+    }
+    const double speed_sigma = std::max(told_px_s, std::min(own_px_s, 3 * told_px_s)) + 30;
+    for (int i = 0; i < Filter::dof; ++i) {
+        const double unit = i < 2 ? 1 : 1 / (gyration_px * gyration_px);
+        filter_.limit_variance(i, most_pose_sigma_px * most_pose_sigma_px * unit);
+        filter_.limit_variance(Filter::dof + i, speed_sigma * speed_sigma * unit);
+    }
+    for (int i = 0; i < Filter::leads; ++i) {
+        filter_.add_variance(2 * Filter::dof + i, lead_drift_px2_s * dt_s);
+    }
+}
+
+template <TransformKind kind>
+double KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_same_us) {
+    predict_to(event.t_us);
+    const Pose& pose = filter_.pose();
+    const double area = pose.a(0, 0) * pose.a(1, 1) - pose.a(0, 1) * pose.a(1, 0);
+    contour_.fit(pose.a, Clutter::far_to_px + 1);
+    if (!(std::abs(area - sampled_for_area_) < 0.3 * sampled_for_area_)) {
+        clutter_.sample(contour_, pose.a);
+        sampled_for_area_ = area;
+    }
+    const ImageMetric metric(pose.a);
+    const Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - pose.t_px;
+    const Eigen::Vector2d x((pose.a(1, 1) * q.x() - pose.a(0, 1) * q.y()) / area,
+                            (pose.a(0, 0) * q.y() - pose.a(1, 0) * q.x()) / area);
+    const auto nearest = contour_.pieces().nearest(x.x(), x.y(), metric);
+    if (nearest.piece < 0) return beyond;
+    const double distance_px = std::sqrt(nearest.squared_px);
+    if (distance_px > Clutter::far_to_px) return beyond;
+
+    const Piece& piece = contour_.pieces().pieces()[static_cast<std::size_t>(nearest.piece)];
+    const double foot = piece.foot(x.x(), x.y(), metric);
+    const Eigen::Vector2d m(piece.ax + foot * (piece.bx - piece.ax),
+                            piece.ay + foot * (piece.by - piece.ay));
+    const Eigen::Vector2d d = pose.a * m;
+    const Eigen::Vector2d along =
+        pose.a * Eigen::Vector2d(piece.bx - piece.ax, piece.by - piece.ay);
+    const double length_px = along.norm();
+    const Eigen::Vector2d off = q - d;
+    Eigen::Vector2d n;
+    if (length_px > 1e-9) {
+        n << along.y() / length_px, -along.x() / length_px;
+    } else if (distance_px > 1e-9) {
+        n = off / distance_px;
+    } else {
+        n << 1, 0;
+    }
+    const double r0_px = n.dot(off);
+    const double past_end2 = nearest.squared_px - r0_px * r0_px;
+    if (past_end2 > overshoot_px * overshoot_px) return beyond;
+
+    const Step j = M::along(n, d, pose.a, m);
+    const double normal_px_s = j.dot(filter_.twist());
+    const double h = normal_px_s / std::sqrt(normal_px_s * normal_px_s + still_px_s * still_px_s);
+    const bool subsequent = static_cast<double>(since_same_us) * 1e-6 * speed_px_s_ < same_edge_px;
+    const int lead = 2 * (event.polarity & 1) + (subsequent ? 1 : 0);
+    const double r_px = r0_px - filter_.lead_px()(lead) * h;
+    if (std::abs(r_px) > Clutter::far_from_px && std::abs(r_px) < Clutter::far_to_px) {
+        clutter_.count_far(r_px);
+    }
+    if (std::abs(r_px) > parameters_.gate_px) return beyond;
+    measured_.row = filter_.row(j, lead, h);
+    measured_.r_px = r_px;
+    measured_.h = h;
+    const double sigma_px = subsequent ? subsequent_noise_px : first_noise_px;
+    measured_.noise_px2 = sigma_px * sigma_px * noise_gain_;
+    measured_.t_us = event.t_us;
+    return distance_px;
+}
+
+template <TransformKind kind>
+bool KalmanEstimator<kind>::take(double weight) {
+    const double r = measured_.r_px;
+    const double near_noise = measured_.noise_px2;
+    const double far_noise = near_noise + tail_noise_px * tail_noise_px;
+    const double near_variance = measured_.row.h_p_h + near_noise;
+    const double far_variance = measured_.row.h_p_h + far_noise;
+    const double near_likelihood = (1 - tail_share) * normal_density(r, near_variance);
+    const double far_likelihood = tail_share * normal_density(r, far_variance);
+    const double likelihood = near_likelihood + far_likelihood;
+    const double share = weight * likelihood / (likelihood + clutter_.density(r));
+    clutter_.count_near(share);
+    if (share < least_share) return false;
+
+    const double noise = likelihood / (near_likelihood / near_noise + far_likelihood / far_noise);
+    filter_.correct(measured_.row, r, measured_.row.h_p_h + noise, share);
+    filter_.limit_leads(least_lead_px, most_lead_px);
+    const double surprise = std::min(r * r / near_variance, 9.0) / 1.3 - 1;
+    noise_gain_ = std::clamp(noise_gain_ * (1 + 0.001 * share * surprise), 0.7, 4.0);
+    residual_px_ += 0.01 * share * (std::abs(r) - residual_px_);
+
+    clock_.count(share);
+    const double length_px = effective_length_px();
+    const double gyration_px = contour_.gyration_px() * scale();
+    const Pose& pose = filter_.pose();
+    const double way_px =
+        std::sqrt((pose.t_px - way_begin_.t_px).squaredNorm() +
+                  0.5 * contour_.gyration_px() * gyration_px / std::max(scale(), 1e-9) *
+                      (pose.a - way_begin_.a).squaredNorm());
+    if (clock_.end_way(way_px, length_px)) {
+        clock_.begin_way();
+        way_begin_ = pose;
+    }
+    return true;
+}
+
+template <TransformKind kind>
+void KalmanEstimator<kind>::describe(std::int64_t t_us, PoseRecord& record) const {
+    record.pose = filter_.pose();
+    Step twist = filter_.twist();
+    if (t_us_ >= 0) {
+        const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
+        const double gyration_px = contour_.gyration_px() * scale();
+        const double own_px_s = std::sqrt(twist.template head<2>().squaredNorm() +
+                                          M::turning_speed2(twist, gyration_px));
+        const double expected_hz = clock_.events_per_px(effective_length_px()) * own_px_s;
+        // Coasts as long as silence does not tell that it stands still.
+        const double moving_s = expected_hz > 0 ? std::min(dt_s, silent_events / expected_hz) : 0;
+        if (moving_s > 0) Filter::move(moving_s, record.pose, twist);
+    }
+    record.velocity = M::velocity(twist, record.pose.a);
+    record.pose_covariance.fill(std::nan(""));
+    record.velocity_covariance.fill(std::nan(""));
+    std::size_t i = 0;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = row; column < 3; ++column, ++i) {
+            record.velocity_covariance[i] =
+                filter_.covariance()(Filter::dof + row, Filter::dof + column);
+        }
+    }
+    record.mean_residual_px = static_cast<float>(residual_px_);
+}
+
+template class KalmanEstimator<TransformKind::isometry>;
+template class KalmanEstimator<TransformKind::similarity>;
+template class KalmanEstimator<TransformKind::paper_affine>;
+template class KalmanEstimator<TransformKind::full_affine>;
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "services/tracker/core/clutter.hpp"
+#include "services/tracker/core/estimator.hpp"
+#include "services/tracker/core/event_clock.hpp"
+#include "services/tracker/core/twist_filter.hpp"
+
+namespace pursuit::tracker {
+
+/// The filter: measures the signed distance of each event along the contour's normal, less the lead
+/// that events have on a moving edge. How fast the object can turn away is told by the event clock,
+/// how much of what comes is the object's by the measured clutter.
+template <TransformKind kind>
+class KalmanEstimator : public Estimator {
+ public:
+    KalmanEstimator(const Shape& shape, const ObjectParameters& parameters);
+
+    void restart(const Pose& pose, const Velocity& velocity) override;
+    void set_parameters(const ObjectParameters& parameters) override;
+    double approach(const Event& event, std::int64_t since_same_us) override;
+    bool take(double weight) override;
+    [[nodiscard]] const Pose& pose() const override { return filter_.pose(); }
+    void describe(std::int64_t t_us, PoseRecord& record) const override;
+
+ private:
+    using Filter = TwistFilter<kind>;
+    using M = Motion<kind>;
+    using Step = typename M::Step;
+
+    void predict_to(std::int64_t t_us);
+    [[nodiscard]] double scale() const;
+    [[nodiscard]] double effective_length_px() const;
+
+    /// What approach() found, for take().
+    struct Measurement {
+        typename Filter::Row row;
+        double r_px;
+        double h;
+        double noise_px2;
+        std::int64_t t_us;
+    };
+
+    Contour contour_;
+    ObjectParameters parameters_;
+    Filter filter_;
+    EventClock clock_;
+    Clutter clutter_;
+    Measurement measured_{};
+    Pose way_begin_;
+    double noise_gain_ = 1;  // g_R
+    double speed_px_s_ = 0;  // u, at the last prediction
+    double residual_px_ = 0.5;
+    double sampled_for_area_ = 0;
+    std::int64_t t_us_ = -1;  // of the state; -1: before the first event
+};
+
+}  // namespace pursuit::tracker

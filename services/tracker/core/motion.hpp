@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "services/tracker/core/pose.hpp"
+
+namespace pursuit::tracker {
+
+/// The degrees of freedom of a transform: small steps of a pose, and how they move a model point in
+/// the image. Steps are x, y [px] in image axes, then
+///   isometry      θ [rad]
+///   similarity    θ, log s
+///   paper_affine  θ, log sx, log sy (along the model's own axes)
+///   full_affine   B row by row, A ← (I + B)·A
+/// A twist is such a step in a second.
+template <TransformKind kind>
+struct Motion {
+    static constexpr int dof = kind == TransformKind::isometry       ? 3
+                               : kind == TransformKind::similarity   ? 4
+                               : kind == TransformKind::paper_affine ? 5
+                                                                     : 6;
+    using Step = Eigen::Matrix<double, dof, 1>;
+
+    /// d(n·p)/d(step) of the model point m, whose arm in the image is d = A·m.
+    static Step along(const Eigen::Vector2d& n, const Eigen::Vector2d& d, const Eigen::Matrix2d& a,
+                      const Eigen::Vector2d& m) {
+        Step j;
+        if constexpr (kind == TransformKind::full_affine) {
+            j << n.x(), n.y(), n.x() * d.x(), n.x() * d.y(), n.y() * d.x(), n.y() * d.y();
+        } else {
+            const double turning = n.y() * d.x() - n.x() * d.y();
+            if constexpr (kind == TransformKind::isometry) {
+                j << n.x(), n.y(), turning;
+            } else if constexpr (kind == TransformKind::similarity) {
+                j << n.x(), n.y(), turning, n.dot(d);
+            } else {
+                j << n.x(), n.y(), turning, n.dot(a.col(0)) * m.x(), n.dot(a.col(1)) * m.y();
+            }
+        }
+        return j;
+    }
+
+    /// The pose after a step. Exact to third order in the angle.
+    static void apply(const Step& step, Pose& pose) {
+        pose.t_px += step.template head<2>();
+        if constexpr (kind == TransformKind::full_affine) {
+            Eigen::Matrix2d b;
+            b << step(2), step(3), step(4), step(5);
+            // exp(B) to second order: a full turn of small steps leaves no growth behind.
+            pose.a += b * (pose.a + 0.5 * b * pose.a);
+        } else {
+            const double angle = step(2);
+            // On the circle to the fourth order.
+            const double s = angle * (1 - angle * angle / 6);
+            const double c = 1 - angle * angle * (0.5 - angle * angle / 24);
+            Eigen::Matrix2d r;
+            r << c, -s, s, c;
+            pose.a = r * pose.a;
+            if constexpr (kind == TransformKind::isometry) {
+                // Back onto the circle: one Newton step of 1/sqrt.
+                pose.a *= 1.5 - 0.5 * pose.a.col(0).squaredNorm();
+                pose.a.col(1) << -pose.a(1, 0), pose.a(0, 0);
+            } else if constexpr (kind == TransformKind::similarity) {
+                pose.a.col(0) *= grown(step(3));
+                pose.a.col(1) << -pose.a(1, 0), pose.a(0, 0);
+            } else {
+                pose.a.col(0) *= grown(step(3));
+                pose.a.col(1) *= grown(step(4));
+                // Keep the axes at right angles, against rounding.
+                const double length2 = pose.a.col(0).squaredNorm();
+                pose.a.col(1) -= pose.a.col(0) * (pose.a.col(0).dot(pose.a.col(1)) / length2);
+            }
+        }
+    }
+
+    static double omega(const Step& twist) {
+        if constexpr (kind == TransformKind::full_affine) return (twist(4) - twist(3)) / 2;
+        return twist(2);
+    }
+
+    /// rms speed of the model's points beside their common one, px/s, for a radius of gyration.
+    static double turning_speed2(const Step& twist, double gyration_px) {
+        double rate2 = twist.template tail<dof - 2>().squaredNorm();
+        if constexpr (kind != TransformKind::isometry && kind != TransformKind::similarity) {
+            rate2 -= 0.5 * twist.template tail<dof - 3>().squaredNorm();
+        }
+        return gyration_px * gyration_px * rate2;
+    }
+
+    static Velocity velocity(const Step& twist, const Eigen::Matrix2d& a) {
+        Velocity v{twist(0), twist(1), omega(twist), 0, 0};
+        if constexpr (kind == TransformKind::similarity) {
+            v.scale_x_rate_per_s = v.scale_y_rate_per_s = twist(3);
+        } else if constexpr (kind == TransformKind::paper_affine) {
+            v.scale_x_rate_per_s = twist(3);
+            v.scale_y_rate_per_s = twist(4);
+        } else if constexpr (kind == TransformKind::full_affine) {
+            Eigen::Matrix2d b;
+            b << twist(2), twist(3), twist(4), twist(5);
+            v.scale_x_rate_per_s = a.col(0).dot(b * a.col(0)) / a.col(0).squaredNorm();
+            v.scale_y_rate_per_s = a.col(1).dot(b * a.col(1)) / a.col(1).squaredNorm();
+        }
+        return v;
+    }
+
+    static Step twist_of(const Velocity& v) {
+        Step twist;
+        if constexpr (kind == TransformKind::isometry) {
+            twist << v.vx_px_s, v.vy_px_s, v.omega_rad_s;
+        } else if constexpr (kind == TransformKind::similarity) {
+            twist << v.vx_px_s, v.vy_px_s, v.omega_rad_s,
+                (v.scale_x_rate_per_s + v.scale_y_rate_per_s) / 2;
+        } else if constexpr (kind == TransformKind::paper_affine) {
+            twist << v.vx_px_s, v.vy_px_s, v.omega_rad_s, v.scale_x_rate_per_s,
+                v.scale_y_rate_per_s;
+        } else {
+            twist << v.vx_px_s, v.vy_px_s, v.scale_x_rate_per_s, -v.omega_rad_s, v.omega_rad_s,
+                v.scale_y_rate_per_s;
+        }
+        return twist;
+    }
+
+ private:
+    static double grown(double log_scale) { return 1 + log_scale * (1 + log_scale / 2); }
+};
+
+}  // namespace pursuit::tracker

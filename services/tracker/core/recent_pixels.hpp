@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "services/common/event.hpp"
+
+namespace pursuit::tracker {
+
+/// When each pixel last fired, a polarity each.
+class RecentPixels {
+ public:
+    static constexpr std::int64_t never_us = std::numeric_limits<std::int64_t>::max() / 2;
+
+    void restart(Geometry geometry) {
+        width_ = geometry.width;
+        last_us_.assign(std::size_t{2} * geometry.width * geometry.height, -never_us);
+    }
+
+    /// µs since the same pixel fired with the same polarity, and notes this event.
+    std::int64_t note(const Event& event) {
+        std::int64_t& last_us =
+            last_us_[2 * (std::size_t{event.y} * width_ + event.x) + (event.polarity & 1U)];
+        const std::int64_t since_us = event.t_us - last_us;
+        last_us = event.t_us;
+        return since_us;
+    }
+
+ private:
+    std::size_t width_ = 0;
+    std::vector<std::int64_t> last_us_;
+};
+
+}  // namespace pursuit::tracker

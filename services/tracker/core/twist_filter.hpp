@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "services/tracker/core/motion.hpp"
+
+namespace pursuit::tracker {
+
+/// The Kalman filter proper: pose, twist and four event leads, and their covariance about the
+/// current pose (the pose itself is no vector: corrections are steps of Motion). A twist is in
+/// image axes about T; it drifts as a random walk, and the velocity of T turns with ω.
+template <TransformKind kind>
+class TwistFilter {
+ public:
+    using M = Motion<kind>;
+    static constexpr int dof = M::dof;
+    static constexpr int leads = 4;
+    static constexpr int size = 2 * dof + leads;
+    using Step = typename M::Step;
+    using State = Eigen::Matrix<double, size, 1>;
+    using Covariance = Eigen::Matrix<double, size, size>;
+
+    void restart(const Pose& pose, const Step& twist, const Step& pose_sigma,
+                 const Step& twist_sigma) {
+        pose_ = pose;
+        twist_ = twist;
+        covariance_.template topLeftCorner<2 * dof, size>().setZero();
+        covariance_.template leftCols<2 * dof>().setZero();
+        covariance_.diagonal().template head<dof>() = pose_sigma.cwiseAbs2();
+        covariance_.diagonal().template segment<dof>(dof) = twist_sigma.cwiseAbs2();
+    }
+
+    void restart_leads(double sigma_px) {
+        lead_px_.setZero();
+        covariance_.template bottomRows<leads>().setZero();
+        covariance_.template rightCols<leads>().setZero();
+        covariance_.diagonal().template tail<leads>().setConstant(sigma_px * sigma_px);
+    }
+
+    /// dt_s later; noise: the spectral density of the twist's random walk, a component each.
+    void predict(double dt_s, const Step& noise) {
+        move(dt_s, pose_, twist_);
+        auto pp = covariance_.template topLeftCorner<dof, dof>();
+        auto pv = covariance_.template block<dof, dof>(0, dof);
+        auto vp = covariance_.template block<dof, dof>(dof, 0);
+        auto vv = covariance_.template block<dof, dof>(dof, dof);
+        auto pb = covariance_.template block<dof, leads>(0, 2 * dof);
+        auto bp = covariance_.template block<leads, dof>(2 * dof, 0);
+        // With F = [I dt; 0 I].
+        pp += dt_s * (pv + vp) + dt_s * dt_s * vv;
+        pv += dt_s * vv;
+        pb += dt_s * covariance_.template block<dof, leads>(dof, 2 * dof);
+        pp.diagonal() += noise * (dt_s * dt_s * dt_s / 3);
+        pv.diagonal() += noise * (dt_s * dt_s / 2);
+        vv.diagonal() += noise * dt_s;
+        vp = pv.transpose();
+        bp = pb.transpose();
+    }
+
+    /// Where pose and twist are dt_s later.
+    static void move(double dt_s, Pose& pose, Step& twist) {
+        M::apply(twist * dt_s, pose);
+        const double angle = M::omega(twist) * dt_s;
+        const double vx = twist(0);
+        twist(0) -= angle * (twist(1) + angle / 2 * vx);
+        twist(1) += angle * (vx - angle / 2 * twist(1));
+    }
+
+    /// A measurement r = j·(pose error) + h·(error of one lead) + noise, prepared.
+    struct Row {
+        State p_h;     ///< P·Hᵀ
+        double h_p_h;  ///< H·P·Hᵀ
+    };
+    [[nodiscard]] Row row(const Step& j, int lead, double h) const {
+        Row row;
+        row.p_h.noalias() = covariance_.template leftCols<dof>() * j;
+        row.p_h += covariance_.col(2 * dof + lead) * h;
+        row.h_p_h = row.p_h.template head<dof>().dot(j) + row.p_h(2 * dof + lead) * h;
+        return row;
+    }
+
+    /// Corrects by the residual r with the given total variance; weight 0 … 1 scales gain and
+    /// reduction.
+    void correct(const Row& row, double residual_px, double variance_px2, double weight) {
+        const State gain = row.p_h * (weight / variance_px2);
+        M::apply(gain.template head<dof>() * residual_px, pose_);
+        twist_ += gain.template segment<dof>(dof) * residual_px;
+        lead_px_ += gain.template tail<leads>() * residual_px;
+        covariance_.noalias() -= gain * row.p_h.transpose();
+    }
+
+    /// Shrinks row and column i where its variance exceeds the bound.
+    void limit_variance(int i, double bound) {
+        const double variance = covariance_(i, i);
+        if (!(variance > bound)) return;
+        const double factor = std::sqrt(bound / variance);
+        covariance_.row(i) *= factor;
+        covariance_.col(i) *= factor;
+    }
+    void limit_leads(double low_px, double high_px) {
+        lead_px_ = lead_px_.cwiseMax(low_px).cwiseMin(high_px);
+    }
+    void slow_down(double factor) { twist_ *= factor; }
+    void add_variance(int i, double variance) { covariance_(i, i) += variance; }
+
+    [[nodiscard]] const Pose& pose() const { return pose_; }
+    [[nodiscard]] const Step& twist() const { return twist_; }
+    [[nodiscard]] const Eigen::Matrix<double, leads, 1>& lead_px() const { return lead_px_; }
+    [[nodiscard]] const Covariance& covariance() const { return covariance_; }
+
+ private:
+    Pose pose_;
+    Step twist_ = Step::Zero();
+    Eigen::Matrix<double, leads, 1> lead_px_ = Eigen::Matrix<double, leads, 1>::Zero();
+    Covariance covariance_ = Covariance::Identity();
+};
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <nanoflann.hpp>
+#include <random>
+
+#include "services/tracker/core/contour.hpp"
+#include "tests/unit/tracker/core/scene.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+class Random {
+ public:
+    explicit Random(std::uint32_t seed) : engine_(seed) {}
+    double between(double low, double high) {
+        return low + (high - low) * static_cast<double>(engine_()) / 4294967296.0;
+    }
+
+ private:
+    std::mt19937 engine_;
+};
+
+CandidateGrid::Nearest brute_force(const std::vector<Piece>& pieces, double x, double y,
+                                   const ImageMetric& metric) {
+    CandidateGrid::Nearest best{-1, 1e300};
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const double squared_px = pieces[i].squared_distance(x, y, metric);
+        if (squared_px < best.squared_px) best = {static_cast<std::int32_t>(i), squared_px};
+    }
+    return best;
+}
+
+Eigen::Matrix2d random_a(TransformKind kind, Random& random) {
+    const Eigen::Matrix2d r = rotation(random.between(-3.14, 3.14));
+    const double s = random.between(0.4, 2.5);
+    switch (kind) {
+        case TransformKind::isometry:
+            return r;
+        case TransformKind::similarity:
+            return s * r;
+        case TransformKind::paper_affine:
+            return r * Eigen::Vector2d(s, random.between(0.4, 2.5)).asDiagonal();
+        case TransformKind::full_affine:
+            break;
+    }
+    return r * Eigen::Vector2d(s, random.between(0.4, 2.5)).asDiagonal() *
+           rotation(random.between(-3.14, 3.14));
+}
+
+class Nearest : public testing::TestWithParam<TransformKind> {};
+
+TEST_P(Nearest, equals_the_exhaustive_search_on_a_million_random_queries) {
+    constexpr double reach_px = 8;
+    Random random(42);
+    Contour contour(test::arrow());
+    int found = 0;
+    for (int pose = 0; pose < 100; ++pose) {
+        const Eigen::Matrix2d a = random_a(GetParam(), random);
+        contour.fit(a, reach_px);
+        const ImageMetric metric(a);
+        const Eigen::Matrix2d inverse = a.inverse();
+        for (int i = 0; i < 5000; ++i) {
+            const Eigen::Vector2d image(random.between(-120, 120), random.between(-120, 120));
+            const Eigen::Vector2d m = inverse * image;
+            for (const CandidateGrid* grid : {&contour.points(), &contour.pieces()}) {
+                const auto expected = brute_force(grid->pieces(), m.x(), m.y(), metric);
+                const auto nearest = grid->nearest(m.x(), m.y(), metric);
+                if (nearest.piece < 0) {
+                    ASSERT_GT(expected.squared_px, reach_px * reach_px);
+                    continue;
+                }
+                ++found;
+                ASSERT_EQ(nearest.piece, expected.piece);
+                ASSERT_EQ(nearest.squared_px, expected.squared_px);
+            }
+        }
+    }
+    EXPECT_GT(found, 50'000);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryTransform, Nearest,
+                         testing::Values(TransformKind::isometry, TransformKind::similarity,
+                                         TransformKind::paper_affine, TransformKind::full_affine),
+                         [](const auto& kind) { return std::string(to_string(kind.param)); });
+
+TEST(NearestPiece, agrees_with_a_kd_tree_on_a_large_model) {
+    using Points = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+    Random random(3);
+    Shape shape{"dots", {}, {}};
+    for (int i = 0; i < 4096; ++i) {
+        shape.points_px.emplace_back(random.between(-300, 300), random.between(-200, 200));
+    }
+    Points matrix(4096, 2);
+    for (int i = 0; i < 4096; ++i) {
+        matrix.row(i) = shape.points_px[static_cast<std::size_t>(i)].cast<double>().transpose();
+    }
+    const nanoflann::KDTreeEigenMatrixAdaptor<Points, 2> tree(2, std::cref(matrix));
+    Contour contour(shape);
+    contour.fit(Eigen::Matrix2d::Identity(), 60);
+    for (int i = 0; i < 20'000; ++i) {
+        const Eigen::Vector2d m(random.between(-300, 300), random.between(-200, 200));
+        Eigen::Index expected = 0;
+        double squared_px = 0;
+        tree.index->knnSearch(m.data(), 1, &expected, &squared_px);
+        const auto nearest = contour.points().nearest(m.x(), m.y(), ImageMetric());
+        ASSERT_EQ(nearest.piece, expected);
+        ASSERT_DOUBLE_EQ(nearest.squared_px, squared_px);
+    }
+}
+
+TEST(NearestPiece, finds_the_one_place_of_a_model_that_is_a_line) {
+    const CandidateGrid grid({{-10, 0, 10, 0}}, 5, 1);
+    const auto nearest = grid.nearest(3, -4, ImageMetric());
+    EXPECT_EQ(nearest.piece, 0);
+    EXPECT_DOUBLE_EQ(nearest.squared_px, 16);
+    EXPECT_EQ(grid.nearest(200, 0, ImageMetric()).piece, -1);
+    EXPECT_EQ(grid.nearest(std::nan(""), 0, ImageMetric()).piece, -1);
+}
+
+TEST(Contour, infers_the_outline_of_evenly_spaced_points) {
+    const Shape shape = test::arrow();
+    std::vector<Edge> edges = inferred_edges(shape.points_px);
+    std::size_t right = 0;
+    for (const Edge& edge : edges) {
+        const auto count = shape.points_px.size();
+        right += (edge.from + 1U) % count == edge.to || (edge.to + 1U) % count == edge.from;
+    }
+    EXPECT_GE(right, shape.points_px.size() - 2);
+    EXPECT_LE(edges.size(), shape.points_px.size() + 2);
+}
+
+TEST(Contour, keeps_a_point_that_no_edge_touches) {
+    Shape shape{"three", {{0, 0}, {10, 0}, {0, 50}}, {{0, 1}}};
+    const Contour contour(shape);
+    EXPECT_EQ(contour.pieces().pieces().size(), 2U);
+    EXPECT_DOUBLE_EQ(contour.length_px(), 10);
+}
+
+}  // namespace
+}  // namespace pursuit::tracker
