@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/recorder/record/file_sequence.hpp"
+
+#include <filesystem>
+
+#include "services/recorder/packet_fields.hpp"
+#include "services/recorder/record/output_path.hpp"
+
+namespace pursuit::recorder {
+
+FileSequence::FileSequence(FileOptions options, const std::vector<TopicFacts>& topics,
+                           RecordingFile::Discovered discovered, OnError on_error)
+    : options_(std::move(options)),
+      topics_(topics),
+      discovered_(std::move(discovered)),
+      on_error_(std::move(on_error)),
+      in_chunk_(topics.size()) {
+    totals_.topics.resize(topics.size());
+    totals_.topics_lost.resize(topics.size());
+}
+
+Result<void> FileSequence::begin(const Now& now) { return open(now); }
+
+Result<void> FileSequence::open(const Now& now) {
+    const auto path = free_path(expand_time(options_.output, now.host_ns));
+    auto made = RecordingFile::create(path, options_.writer, now.steady_us, topics_, discovered_);
+    if (!made) {
+        std::error_code ignored;  // the error at hand is the one that matters
+        if (std::filesystem::is_regular_file(path, ignored) &&
+            std::filesystem::file_size(path, ignored) < 64) {
+            std::filesystem::remove(path, ignored);
+        }
+        return tl::unexpected(made.error());
+    }
+    file_.emplace(std::move(*made));
+    accounted_ = {};
+    totals_.file = path;
+    totals_.fault.clear();
+    ++totals_.changes;
+    account(now);
+    return {};
+}
+
+void FileSequence::write(const Sample& sample, const Now& now) {
+    count_gap(sample);
+    auto& in_chunk = in_chunk_[sample.topic];
+    if (!file_) {
+        lose(sample.topic, 1, totals_.lost_disk);
+        return;
+    }
+    ++in_chunk.messages;
+    in_chunk.bytes += sample.payload.size();
+    if (const auto ok = file_->write(sample); !ok) {
+        // The file's own failure is told again by every later call; otherwise it is this sample's.
+        if (const auto file_ok = file_->tick(now.steady_us); !file_ok) {
+            give_up(file_ok.error().message, now);
+            return;
+        }
+        --in_chunk.messages;
+        in_chunk.bytes -= sample.payload.size();
+        lose(sample.topic, 1, totals_.lost_refused);
+        on_error_(file_->path() + ": " + ok.error().message);
+    }
+    account(now);
+    const bool large = options_.max_file_bytes > 0 && file_->bytes() >= options_.max_file_bytes;
+    if (large || file_->full()) {
+        if (const auto ok = new_file(now); !ok) give_up(ok.error().message, now);
+    }
+}
+
+void FileSequence::tick(const Now& now) {
+    if (file_) {
+        if (const auto ok = file_->tick(now.steady_us); !ok) {
+            give_up(ok.error().message, now);
+        } else {
+            account(now);
+        }
+        return;
+    }
+    if (now.steady_us < retry_at_us_) return;
+    if (const auto ok = open(now); !ok) give_up(ok.error().message, now);
+}
+
+Result<std::string> FileSequence::new_file(const Now& now) {
+    close(now);
+    if (auto ok = open(now); !ok) {
+        give_up(ok.error().message, now);
+        return tl::unexpected(ok.error());
+    }
+    return totals_.file;
+}
+
+void FileSequence::close(const Now& now) {
+    if (!file_) return;
+    if (const auto ok = file_->close(); !ok) {
+        give_up(ok.error().message, now);
+        return;
+    }
+    account(now);
+    file_.reset();
+}
+
+void FileSequence::give_up(const std::string& error, const Now& now) {
+    if (file_) {
+        account(now);
+        for (std::size_t i = 0; i < in_chunk_.size(); ++i) {
+            lose(i, in_chunk_[i].messages, totals_.lost_disk);
+            in_chunk_[i] = {};
+        }
+        const bool empty = file_->totals().chunks == 0;
+        const auto path = file_->path();
+        file_.reset();
+        std::error_code ignored;  // it stays then, and is in nobody's way
+        if (empty) std::filesystem::remove(path, ignored);
+    }
+    retry_at_us_ = now.steady_us + retry_us;
+    if (error == totals_.fault) return;
+    totals_.fault = error;
+    ++totals_.changes;
+    on_error_(error);
+}
+
+void FileSequence::account(const Now& now) {
+    const auto& file = file_->totals();
+    totals_.bytes_written += file.bytes - accounted_.bytes;
+    if (file.flushed_bytes != accounted_.flushed_bytes) totals_.last_flush_host_ns = now.host_ns;
+    if (file.chunks != accounted_.chunks) {
+        totals_.chunks_written += file.chunks - accounted_.chunks;
+        for (std::size_t i = 0; i < in_chunk_.size(); ++i) {
+            totals_.messages += in_chunk_[i].messages;
+            totals_.topics[i].messages += in_chunk_[i].messages;
+            totals_.topics[i].bytes += in_chunk_[i].bytes;
+            in_chunk_[i] = {};
+        }
+    }
+    accounted_.bytes = file.bytes;
+    accounted_.flushed_bytes = file.flushed_bytes;
+    accounted_.chunks = file.chunks;
+}
+
+void FileSequence::lose(std::size_t topic, std::uint64_t messages, std::uint64_t& cause) {
+    cause += messages;
+    totals_.topics_lost[topic] += messages;
+}
+
+void FileSequence::count_gap(const Sample& sample) {
+    if (sample.kind != SampleKind::data ||
+        topics_[sample.topic].type_name != "pursuit::v1::EventPacket") {
+        return;
+    }
+    if (const auto packet = PacketFields::of(sample.payload)) {
+        gaps_.take(sample.topic, packet->stream_id(), packet->sequence_number());
+        totals_.gaps = gaps_.gaps();
+    }
+}
+
+}  // namespace pursuit::recorder

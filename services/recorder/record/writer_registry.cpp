@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/recorder/record/writer_registry.hpp"
+
+#include <algorithm>
+
+namespace pursuit::recorder {
+
+namespace dds = eprosima::fastdds::dds;
+
+Guid to_guid(const eprosima::fastrtps::rtps::GUID_t& guid) {
+    Guid octets;
+    std::copy_n(guid.guidPrefix.value, 12, octets.begin());
+    std::copy_n(guid.entityId.value, 4, octets.begin() + 12);
+    return octets;
+}
+
+std::optional<OfferedQos> WriterRegistry::find(const Guid& guid) const {
+    const std::scoped_lock lock(mutex_);
+    const auto found = writers_.find(guid);
+    if (found == writers_.end()) return std::nullopt;
+    return found->second;
+}
+
+void WriterRegistry::on_publisher_discovery(dds::DomainParticipant*,
+                                            eprosima::fastrtps::rtps::WriterDiscoveryInfo&& info) {
+    using Info = eprosima::fastrtps::rtps::WriterDiscoveryInfo;
+    if (info.status != Info::DISCOVERED_WRITER && info.status != Info::CHANGED_QOS_WRITER) return;
+    const auto& qos = info.info.m_qos;
+    OfferedQos offered;
+    offered.reliability = qos.m_reliability.kind == dds::RELIABLE_RELIABILITY_QOS
+                              ? mcap::Reliability::reliable
+                              : mcap::Reliability::best_effort;
+    offered.durability = qos.m_durability.kind == dds::VOLATILE_DURABILITY_QOS
+                             ? mcap::Durability::volatile_
+                             : mcap::Durability::transient_local;
+    offered.ownership = qos.m_ownership.kind == dds::SHARED_OWNERSHIP_QOS
+                            ? mcap::Ownership::shared
+                            : mcap::Ownership::exclusive;
+    const auto& deadline = qos.m_deadline.period;
+    if (deadline != eprosima::fastrtps::c_TimeInfinite) offered.deadline_ns = deadline.to_ns();
+    offered.partitions = qos.m_partition.getNames();
+    const auto guid = to_guid(info.info.guid());
+    const std::scoped_lock lock(mutex_);
+    if (!writers_.insert_or_assign(guid, std::move(offered)).second) return;
+    order_.push_back(guid);
+    if (order_.size() > most_writers) {
+        writers_.erase(order_.front());
+        order_.pop_front();
+    }
+}
+
+}  // namespace pursuit::recorder
