@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# run.sh BUILD_FOLDER WRITE_SAMPLE: lets the JavaScript reader of the MCAP project read what we
+# write. Its packages are installed into the build folder, once for each package.json.
+set -euo pipefail
+source=$(cd "$(dirname "$0")" && pwd)
+build=$1
+write_sample=$2
+
+skip() {
+    echo "skipped: $*"
+    exit 77
+}
+command -v node >/dev/null || skip "node is not installed"
+command -v npm >/dev/null || skip "npm is not installed"
+# The reader's packages need the regular expressions and modules of node 18.
+(($(node -p 'process.versions.node.split(".")[0]') >= 18)) || skip "node is older than 18"
+
+mkdir -p "$build"
+cp "$source/read_sample.mjs" "$build"
+if ! cmp -s "$source/package.json" "$build/installed.json"; then
+    cp "$source/package.json" "$build"
+    log=$(cd "$build" && timeout 120 npm install --no-package-lock --no-audit --no-fund 2>&1) ||
+        skip "npm could not install the reader: $(tail -n 3 <<<"$log" | tr '\n' ' ')"
+    cp "$source/package.json" "$build/installed.json"
+fi
+"$write_sample" "$build"
+node "$build/read_sample.mjs" "$build"
