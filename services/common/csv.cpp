@@ -19,6 +19,13 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(0, text.find_last_not_of(" \t\r") + 1);
 }
 
+template <class Number>
+void append_shortest(std::string& text, Number value) {
+    std::array<char, 32> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    text.append(digits.data(), end);
+}
+
 }  // namespace
 
 CsvReader::CsvReader(std::string path)
@@ -81,10 +88,8 @@ std::string CsvReader::not_a_number(std::size_t column) const {
            std::string(field(column)) + "\" is not a number of its kind";
 }
 
-void append_number(std::string& text, double value) {
-    std::array<char, 32> digits;
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    text.append(digits.data(), end);
-}
+void append_number(std::string& text, double value) { append_shortest(text, value); }
+
+void append_number(std::string& text, float value) { append_shortest(text, value); }
 
 }  // namespace pursuit

@@ -66,5 +66,6 @@ class CsvReader {
 
 /// Appends the shortest text that reads back as the same bits.
 void append_number(std::string& text, double value);
+void append_number(std::string& text, float value);
 
 }  // namespace pursuit

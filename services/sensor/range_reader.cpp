@@ -2,6 +2,7 @@
 #include "services/sensor/range_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pursuit::sensor {
@@ -47,6 +48,18 @@ class RangeReader final : public EventReader {
 };
 
 }  // namespace
+
+Result<TimeRange> range_of_seconds(double start_s, double end_s) {
+    constexpr double longest_s = 9e12;  // as us within 63 bits
+    if (!(start_s >= 0 && start_s <= longest_s) || !(end_s >= 0 && end_s <= longest_s)) {
+        return fail("a range must begin and end at 0 to 9e12 s");
+    }
+    const TimeRange range{std::llround(start_s * 1e6), std::llround(end_s * 1e6)};
+    if (range.end_us != 0 && range.end_us <= range.start_us) {
+        return fail("a range must end after it begins, or at 0 for the end of the source");
+    }
+    return range;
+}
 
 std::unique_ptr<EventReader> in_range(std::unique_ptr<EventReader> source, TimeRange range) {
     if (range.start_us == 0 && range.end_us == 0) return source;
