@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cinttypes>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "services/ctl/commands/offline_commands.hpp"
+#include "services/ctl/commands/report.hpp"
+#include "services/sensor/formats/formats.hpp"
+#include "services/sensor/scene/scene.hpp"
+#include "services/sensor/scene/write_simulation.hpp"
+
+namespace pursuit::ctl {
+namespace {
+
+struct Options {
+    std::string scene;
+    std::string events;
+    std::string models;
+    std::uint64_t seed = 1;
+    double duration_s = 0;
+    sensor::SimulationFiles files;
+};
+
+Result<sensor::SimulationSummary> write(const Options& options, const sensor::Scene& scene) {
+    const auto& array = scene.description().sensor();
+    const Geometry geometry{static_cast<std::uint16_t>(array.width()),
+                            static_cast<std::uint16_t>(array.height())};
+    auto writer = sensor::create_events(options.events, geometry);
+    if (!writer) return tl::unexpected(writer.error());
+    const auto summary = sensor::write_simulation(
+        scene, options.seed,
+        [&](std::span<const Event> events) { return (*writer)->write(events); }, options.files);
+    if (auto ok = (*writer)->close(); summary && !ok) return tl::unexpected(ok.error());
+    return summary;
+}
+
+int simulate(Options& options) {
+    const auto scene = sensor::load_scene(options.scene);
+    if (!scene) return report(scene.error(), exit_configuration);
+    if (!options.models.empty()) options.files.models_dir = options.models;
+    if (options.duration_s > 0) options.files.duration_s = options.duration_s;
+    const auto summary = write(options, *scene);
+    if (!summary) return report(summary.error());
+    std::printf("%" PRIu64 " events in %.3f s\n", summary->events,
+                static_cast<double>(summary->duration_us) * 1e-6);
+    return exit_success;
+}
+
+std::string scene_help() {
+    std::string names;
+    for (const auto& name : sensor::list_builtin_scenes()) {
+        names += (names.empty() ? "" : ", ") + name;
+    }
+    return "A *.scene.textproto, or one of " + names;
+}
+
+}  // namespace
+
+Run define_simulate(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    app.add_option("SCENE", options->scene, scene_help())->required();
+    app.add_option("--seed", options->seed, "Of the scene's choices and noise")
+        ->capture_default_str();
+    app.add_option("--events", options->events, "Recording to write; its extension is its format")
+        ->required();
+    app.add_option("--truth", options->files.truth_path, "Table of truth to write, CSV")
+        ->required();
+    app.add_option("--models", options->models, "Folder for the models and their start poses");
+    app.add_option("--duration", options->duration_s, "Seconds; 0: as the scene says")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    return [options] { return simulate(*options); };
+}
+
+}  // namespace pursuit::ctl

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "services/common/text_format.hpp"
+#include "services/ctl/commands/offline_commands.hpp"
+#include "services/ctl/commands/option_values.hpp"
+#include "services/ctl/commands/report.hpp"
+#include "services/ctl/offline_track.hpp"
+#include "services/tracker/start_settings.hpp"
+
+namespace pursuit::ctl {
+namespace {
+
+struct Options {
+    OfflineTrack task;
+    std::string config;
+    std::vector<std::string> settings;
+    std::string strategy;
+    std::string estimator;
+    std::string preset;
+    std::string transform;
+    std::string geometry;
+    double from_s = 0;
+    double to_s = 0;
+};
+
+Result<void> complete(Options& options) {
+    auto& task = options.task;
+    if (!options.config.empty()) {
+        if (auto ok = read_text_file(options.config, task.config); !ok) return ok;
+    }
+    if (auto ok = apply_settings(options.settings, task.config); !ok) return ok;
+    if (!options.preset.empty()) task.config.set_preset(options.preset);
+    if (!options.strategy.empty()) task.config.set_strategy(options.strategy);
+    if (!options.transform.empty()) {
+        task.transform = tracker::parse_transform(options.transform);
+        if (!task.transform) {
+            return fail("--transform: \"" + options.transform + "\" is not " +
+                        tracker::transform_names());
+        }
+    }
+    if (!options.estimator.empty()) {
+        task.estimator = tracker::parse_estimator(options.estimator);
+        if (!task.estimator) {
+            return fail("--estimator: \"" + options.estimator + "\" is not " +
+                        tracker::estimator_names());
+        }
+    }
+    // Before any event is read: the parts of a configuration that only a tracker can judge.
+    if (const auto made = tracker::configured_tracker(task.config, 1); !made) {
+        return tl::unexpected(made.error());
+    }
+    return {};
+}
+
+int track(Options& options) {
+    if (auto ok = complete(options); !ok) return report(ok.error(), exit_configuration);
+    const auto range = sensor::range_of_seconds(options.from_s, options.to_s);
+    if (!range) return report(range.error());
+    options.task.range = *range;
+    const auto geometry = geometry_of(options.geometry);
+    if (!geometry) return report(geometry.error());
+    options.task.geometry = *geometry;
+    const auto done = track_offline(options.task);
+    if (!done) return report(done.error());
+    const auto& counters = done->counters;
+    std::fprintf(stderr, "%llu events in %.2f s (%.2f M/s), %llu used; %llu poses\n",
+                 static_cast<unsigned long long>(counters.events_in), done->wall_s,
+                 static_cast<double>(counters.events_in) / 1e6 / std::max(done->wall_s, 1e-9),
+                 static_cast<unsigned long long>(counters.events_used),
+                 static_cast<unsigned long long>(counters.poses_emitted));
+    return exit_success;
+}
+
+}  // namespace
+
+Run define_track(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    app.add_option("--events", options->task.events, "Recording of events")->required();
+    app.add_option("--model", options->task.models, "PATH[@x,y,theta[,scale]]; once an object");
+    app.add_option("--poses", options->task.poses, "Table of poses to write, CSV")->required();
+    app.add_option("--config", options->config, "Configuration of the tracker");
+    app.add_option("--set", options->settings, "field=value over the configuration");
+    app.add_option("--preset", options->preset, "The constants to begin with");
+    app.add_option("--strategy", options->strategy, tracker::strategy_names());
+    app.add_option("--estimator", options->estimator, tracker::estimator_names());
+    app.add_option("--transform", options->transform, tracker::transform_names());
+    app.add_option("--from", options->from_s, "Begin here, seconds of the recording's time");
+    app.add_option("--to", options->to_s, "End before here; 0: to the end");
+    app.add_option("--geometry", options->geometry, geometry_help);
+    return [options] { return track(*options); };
+}
+
+}  // namespace pursuit::ctl

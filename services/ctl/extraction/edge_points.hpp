@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+namespace pursuit::ctl {
+
+/// A place that many events came from.
+struct EdgePoint {
+    Eigen::Vector2f position_px;
+    float density;  ///< Events around it, weighted by distance.
+    float corner;   ///< Smaller eigenvalue of the density's structure tensor around it.
+};
+
+/// Edges in a cloud of events that are moved back to one instant: the cloud's ridges, one point a
+/// pixel. Isolated events are left out: those with fewer neighbours than 3, or than a quarter of
+/// what the median event has. Sorted from dense to thin, then by place: the same events in any
+/// order of equal times give the same points.
+std::vector<EdgePoint> edge_points(std::span<const Eigen::Vector2f> events_px);
+
+}  // namespace pursuit::ctl
