@@ -124,7 +124,8 @@ void ActivePixels::add_fixed_edges(const ImageEdges& edges,
     fixed_done_ = true;
 }
 
-void ActivePixels::mark(const ImageEdges& edges, const std::vector<LayerMotion>& motions) {
+void ActivePixels::mark(const ImageEdges& edges, const std::vector<LayerMotion>& motions,
+                        std::span<const std::int64_t> blind_until_us, std::int64_t horizon_us) {
     clear(edges);
     add_fixed_edges(edges, motions);
     for (const auto& polygon : edges.polygons()) {
@@ -135,7 +136,9 @@ void ActivePixels::mark(const ImageEdges& edges, const std::vector<LayerMotion>&
         }
     }
     for (const auto index : touched_) {
-        if (layers_[index] != 0) describe(edges, index, layers_[index]);
+        if (layers_[index] == 0) continue;
+        if (!blind_until_us.empty() && blind_until_us[index] > horizon_us) continue;
+        describe(edges, index, layers_[index]);
     }
 }
 
@@ -152,7 +155,7 @@ void ActivePixels::describe(const ImageEdges& edges, std::uint32_t index, std::u
     const auto x = static_cast<float>(column);
     const auto y = static_cast<float>(row);
     const auto polygons = edges.polygons();
-    Pixel pixel{index, static_cast<std::uint32_t>(terms_.size()), 0, background_, layers};
+    Pixel pixel{index, static_cast<std::uint32_t>(terms_.size()), 0, background_, layers, 1};
     auto next = scratch_.begin();
     const auto add_term = [&](std::uint32_t polygon) {
         Term term{polygon, static_cast<std::uint32_t>(near_.size()), 0};
@@ -179,6 +182,11 @@ void ActivePixels::describe(const ImageEdges& edges, std::uint32_t index, std::u
         }
     }
     while (!covered && next != scratch_.end()) add_term(edges.polygon_of(*next));
+    float fastest = 0;
+    for (auto e = scratch_.begin(); e != next; ++e) {
+        fastest = std::max(fastest, edges.normal_share(*e));
+    }
+    pixel.stride = static_cast<std::uint32_t>(1 / std::max(fastest, 1.0F / greatest_stride));
     pixels_.push_back(pixel);
 }
 
@@ -205,7 +213,7 @@ std::vector<float> ActivePixels::brightness_of_all(const ImageEdges& edges) {
     }
     const bool fixed_done = std::exchange(fixed_done_, true);
     const auto fixed_head = std::exchange(fixed_head_, std::vector(fixed_head_.size(), none));
-    mark(edges, all_moving);
+    mark(edges, all_moving, {}, 0);
     std::vector<float> all(head_.size());
     pixels_.clear();
     for (std::uint32_t index = 0; index < all.size(); ++index) {

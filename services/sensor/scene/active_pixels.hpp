@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "services/common/event.hpp"
@@ -30,11 +31,15 @@ class ActivePixels {
         std::uint32_t term_count;
         float rest;            ///< Reflectance of what covers it behind the terms.
         std::uint64_t layers;  ///< Bit (layer mod 64) of each moving layer near it.
+        std::uint32_t stride;  ///< Every how many looks suffice: the edges near it move askew.
     };
 
     ActivePixels(Geometry geometry, double background_reflectance, double margin_px);
 
-    void mark(const ImageEdges& edges, const std::vector<LayerMotion>& motions);
+    /// `blind_until_us`, by pixel: one that is blind until `horizon_us` is left out; empty: none
+    /// is.
+    void mark(const ImageEdges& edges, const std::vector<LayerMotion>& motions,
+              std::span<const std::int64_t> blind_until_us, std::int64_t horizon_us);
 
     const std::vector<Pixel>& pixels() const { return pixels_; }
 
@@ -45,6 +50,8 @@ class ActivePixels {
     std::vector<float> brightness_of_all(const ImageEdges& edges);
 
     double margin_px() const { return margin_px_; }
+
+    static constexpr std::uint32_t greatest_stride = 4;
 
  private:
     static constexpr std::uint32_t none = 0xffffffffU;

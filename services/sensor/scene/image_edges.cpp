@@ -4,6 +4,14 @@
 #include <algorithm>
 
 namespace pursuit::sensor {
+namespace {
+
+/// Nearer than this, in sigmas, a pixel counts as being on an edge; and where it looks from then,
+/// beyond that distance for every blur (0.002 of the contrast away).
+constexpr float on_edge = 1e-3F;
+constexpr float aside_px = 6e-3F;
+
+}  // namespace
 
 ImageEdges::ImageEdges(const DrawnScene& scene, double sigma_px)
     : sigma_px_(sigma_px), per_sigma_(static_cast<float>(1 / sigma_px)) {
@@ -26,6 +34,7 @@ ImageEdges::ImageEdges(const DrawnScene& scene, double sigma_px)
     }
     first_polygon_.push_back(static_cast<std::uint32_t>(polygons_.size()));
     edges_.resize(layer_vertices_.size());
+    normal_share_.assign(layer_vertices_.size(), 1);
 }
 
 void ImageEdges::place(std::size_t layer, const PlanarMap& image_from_layer) {
@@ -56,11 +65,32 @@ void ImageEdges::place(std::size_t layer, const PlanarMap& image_from_layer) {
     }
 }
 
+void ImageEdges::note_motion(std::size_t layer, const PlanarMap& from, const PlanarMap& to,
+                             double whole_px) {
+    // The normals turn until the next note.
+    constexpr double turning = 0.04;
+    for (auto k = first_polygon_[layer]; k < first_polygon_[layer + 1]; ++k) {
+        const ImagePolygon& polygon = polygons_[k];
+        for (std::uint32_t i = 0; i < polygon.edge_count; ++i) {
+            const auto e = polygon.first_edge + i;
+            const Point& a = layer_vertices_[e];
+            const Point& b =
+                layer_vertices_[i + 1 == polygon.edge_count ? polygon.first_edge : e + 1];
+            const Point normal(-edges_[e].uy, edges_[e].ux);
+            const double moved = std::max(std::abs(normal.dot(to * a - from * a)),
+                                          std::abs(normal.dot(to * b - from * b)));
+            const double share = whole_px > 0 ? moved / whole_px : 1;
+            normal_share_[e] = static_cast<float>(std::min(share + turning, 1.0));
+        }
+    }
+}
+
 float ImageEdges::coverage(const ImagePolygon& polygon, std::span<const std::uint32_t> near,
-                           float x, float y) const {
+                           float x, float y, bool may_step_aside) const {
     float sum = 0;
     int inside_count = 0;
     bool foot_on_edge = false;
+    const ImageEdge* underfoot = nullptr;
     for (const auto e : near) {
         const ImageEdge& edge = edges_[e];
         const float dx = x - edge.ax;
@@ -70,6 +100,7 @@ float ImageEdges::coverage(const ImagePolygon& polygon, std::span<const std::uin
         const float rest = edge.length * per_sigma_ - along;
         const float distance = std::abs(h);
         inside_count += h > 0 ? 1 : 0;
+        if (distance < on_edge && along > -on_edge && rest > -on_edge) underfoot = &edge;
         if (distance >= GaussianCoverage::reach) {
             foot_on_edge = along > 0 && rest > 0;
             continue;
@@ -83,6 +114,12 @@ float ImageEdges::coverage(const ImagePolygon& polygon, std::span<const std::uin
             foot_on_edge = along > 0 && rest > 0;
         }
         sum += h > 0 ? part : -part;
+    }
+    if (underfoot != nullptr && near.size() > 1 && may_step_aside) {
+        // Exactly on an edge among others rounding would decide between in and out: step aside.
+        const float aside_x = aside_px * (0.4F * underfoot->ux - underfoot->uy);
+        const float aside_y = aside_px * (0.4F * underfoot->uy + underfoot->ux);
+        return coverage(polygon, near, x + aside_x, y + aside_y, false);
     }
     // Within reach there is nothing but the near edges, so that one or two neighbours alone tell
     // inside from outside; with more, count crossings.

@@ -41,6 +41,13 @@ class ImageEdges {
     /// Moves the polygons of one layer.
     void place(std::size_t layer, const PlanarMap& image_from_layer);
 
+    /// Notes how the layer's edges move from one place to another: normal_share() is how far an
+    /// edge moves along its normal there, as a share of `whole_px`, at most 1.
+    void note_motion(std::size_t layer, const PlanarMap& from, const PlanarMap& to,
+                     double whole_px);
+
+    float normal_share(std::uint32_t edge) const { return normal_share_[edge]; }
+
     std::span<const ImagePolygon> polygons() const { return polygons_; }
     std::span<const ImageEdge> edges() const { return edges_; }
     std::uint32_t polygon_of(std::uint32_t edge) const { return polygon_of_[edge]; }
@@ -49,12 +56,17 @@ class ImageEdges {
     /// Share of the pixel at (x, y) that `polygon` covers; `near` names every edge of it within
     /// GaussianCoverage::reach · sigma_px, ascending, at least one.
     float coverage(const ImagePolygon& polygon, std::span<const std::uint32_t> near, float x,
-                   float y) const;
+                   float y) const {
+        return coverage(polygon, near, x, y, true);
+    }
 
     /// Whether the point is inside `polygon`.
     bool inside(const ImagePolygon& polygon, float x, float y) const;
 
  private:
+    float coverage(const ImagePolygon& polygon, std::span<const std::uint32_t> near, float x,
+                   float y, bool may_step_aside) const;
+
     double sigma_px_;
     float per_sigma_;
     const GaussianCoverage& gaussian_ = GaussianCoverage::tables();
@@ -63,6 +75,7 @@ class ImageEdges {
     std::vector<Point> layer_vertices_;         // edge i begins at vertex i, in its layer's frame
     std::vector<std::uint32_t> polygon_of_;     // by edge
     std::vector<std::uint8_t> convex_end_;      // by edge: the inside is convex where it ends
+    std::vector<float> normal_share_;           // by edge
     std::vector<std::uint32_t> first_polygon_;  // by layer, and one past the last
 };
 

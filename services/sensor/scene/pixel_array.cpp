@@ -26,7 +26,8 @@ PixelArray::PixelArray(Geometry geometry, const disk::SceneSensor& sensor, std::
       jitter_us_(sensor.jitter_us()),
       jitter_(seed, jitter_stream),
       noise_(seed, noise_stream),
-      states_(brightness.size()) {
+      states_(brightness.size()),
+      blind_until_us_(brightness.size(), never) {
     Random thresholds(seed, threshold_stream);
     const double mean = sensor.threshold();
     const auto threshold = [&] {
@@ -67,27 +68,28 @@ void PixelArray::fire(std::uint32_t index, std::int64_t t_us, bool on, std::vect
                       static_cast<std::uint16_t>(index % geometry_.width),
                       static_cast<std::uint16_t>(index / geometry_.width),
                       static_cast<std::uint8_t>(on ? 1 : 0)});
-    states_[index].blind_until_us = t_us + refractory_us_;
+    blind_until_us_[index] = t_us + refractory_us_;
 }
 
 void PixelArray::look(std::uint32_t index, std::int64_t since_us, std::int64_t t_us,
                       float brightness, std::vector<Event>& events) {
     State& state = states_[index];
+    std::int64_t& blind_until_us = blind_until_us_[index];
     std::int64_t from_us = std::max(state.look_us, since_us);
     float before = state.seen;
     state.look_us = t_us;
     state.seen = brightness;
     for (;;) {
-        if (state.blind_until_us != never) {
-            if (state.blind_until_us > t_us) return;
-            if (state.blind_until_us > from_us) {
-                const float u = static_cast<float>(state.blind_until_us - from_us) /
+        if (blind_until_us != never) {
+            if (blind_until_us > t_us) return;
+            if (blind_until_us > from_us) {
+                const float u = static_cast<float>(blind_until_us - from_us) /
                                 static_cast<float>(t_us - from_us);
                 before *= std::pow(brightness / before, u);
-                from_us = state.blind_until_us;
+                from_us = blind_until_us;
             }
             set_reference(state, before);
-            state.blind_until_us = never;
+            blind_until_us = never;
         }
         const bool on = brightness >= state.on_level;
         if (!on && brightness > state.off_level) return;

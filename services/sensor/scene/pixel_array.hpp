@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scene.pb.h"
@@ -32,8 +33,11 @@ class PixelArray {
 
     /// Whether the pixel is blind until after `t_us`, so that looking at it then is in vain.
     bool blind_beyond(std::uint32_t index, std::int64_t t_us) const {
-        return states_[index].blind_until_us > t_us;
+        return blind_until_us_[index] > t_us;
     }
+
+    /// By pixel: until when it is blind; a time in the past where it is not.
+    std::span<const std::int64_t> blind_until_us() const { return blind_until_us_; }
 
     /// Background noise up to `t_us`: events of pixels that see no change. They blind the pixel and
     /// set its reference like any other.
@@ -46,10 +50,9 @@ class PixelArray {
     static constexpr std::int64_t never = INT64_MIN;
 
     struct State {
-        std::int64_t look_us = 0;             // of the last look
-        std::int64_t blind_until_us = never;  // refractory, or re-reference still to be done
-        float seen = 0;                       // brightness at the last look
-        float on_level = 0;                   // brightness that fires
+        std::int64_t look_us = 0;  // of the last look
+        float seen = 0;            // brightness at the last look
+        float on_level = 0;        // brightness that fires
         float off_level = 0;
         float on_factor = 0;  // level / reference
         float off_factor = 0;
@@ -73,6 +76,7 @@ class PixelArray {
     Random jitter_;
     Random noise_;
     std::vector<State> states_;
+    std::vector<std::int64_t> blind_until_us_;  // never: its reference is set
     NoiseSource background_;
     NoiseSource hot_;
 };

@@ -85,9 +85,12 @@ Problem tilt_problem(const disk::SceneLayer& layer, const std::string& where) {
     bool tilted = false;
     double grow = 1;
     for (const auto& sine : t.sine()) {
-        tilted |=
-            sine.target() == disk::SceneSine::TILT_X || sine.target() == disk::SceneSine::TILT_Y;
-        grow += std::abs(sine.amplitude());
+        using Sine = disk::SceneSine;
+        const auto target = sine.target();
+        const bool tilts = target == Sine::TILT_X || target == Sine::TILT_Y;
+        tilted |= tilts;
+        const bool shifts = target == Sine::X || target == Sine::Y || target == Sine::THETA;
+        if (!tilts && !shifts) grow += std::abs(sine.amplitude());
     }
     if (!tilted) return std::nullopt;
     double key_scale = 1;

@@ -3,7 +3,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace pursuit::sensor {
 namespace {
@@ -12,16 +14,18 @@ namespace {
 constexpr double pixel_variance_px2 = 1.0 / 12;
 
 /// How far edges may move before the pixels near them are found anew.
-constexpr double mark_margin_px = 0.4;
+constexpr double mark_margin_px = 0.8;
 
 /// A resting layer that has moved by this much is a moving one.
 constexpr double rest_px = 0.02;
 
-/// No step is longer, so that motion that begins is noticed; nor goes a slow layer longer without
-/// being looked at, nor a mark without being renewed.
+/// No step is longer, so that motion that begins is noticed; nor does a slow layer go unseen
+/// longer.
 constexpr std::int64_t longest_step_us = 1000;
 constexpr std::int64_t longest_unseen_us = 5000;
-constexpr std::int64_t longest_mark_us = 50000;
+
+/// The pixels near moving edges are found anew after this many steps at the latest.
+constexpr std::int64_t longest_mark_steps = 16;
 
 /// A step may be this much longer than wanted before it is tried again.
 constexpr double step_slack = 1.05;
@@ -59,7 +63,8 @@ SceneSimulator::SceneSimulator(const Scene& scene, std::uint64_t seed)
             layer.polygons.empty() || (layer.trajectory.constant() && drawn_.camera.constant());
         state.motion = fixed ? LayerMotion::fixed : LayerMotion::moving;
         if (!layer.polygons.empty()) state.corners = bounding_corners(layer);
-        state.now = state.next = state.looked = state.marked = image_from_layer(drawn_, layer, 0);
+        state.before = state.now = state.next = state.looked = state.marked =
+            image_from_layer(drawn_, layer, 0);
         edges_.place(i, state.now);
         layers_.push_back(std::move(state));
     }
@@ -117,7 +122,7 @@ std::int64_t SceneSimulator::place_next() {
 }
 
 bool SceneSimulator::mark_needed() const {
-    if (now_us_ - marked_us_ >= longest_mark_us) return true;
+    if (now_us_ >= mark_until_us_) return true;
     return std::any_of(layers_.begin(), layers_.end(), [&](const LayerState& layer) {
         if (layer.motion == LayerMotion::fixed) return false;
         const double allowed_px =
@@ -135,60 +140,76 @@ void SceneSimulator::mark() {
             layer.motion = moved ? LayerMotion::moving : LayerMotion::resting;
             layer.marked = layer.now;
             edges_.place(i, layer.now);
+            edges_.note_motion(i, layer.before, layer.now, layer.step_px);
         }
         motions.push_back(layer.motion);
     }
-    active_.mark(edges_, motions);
-    marked_us_ = now_us_;
+    mark_until_us_ = now_us_ + longest_mark_steps * step_us_;
+    active_.mark(edges_, motions, pixels_->blind_until_us(), mark_until_us_);
 }
 
 /// Lets the pixels near layers that have moved far enough look at them.
-void SceneSimulator::look(std::int64_t before_us, bool marked) {
+void SceneSimulator::look(bool marked) {
     const double wanted_px = drawn_.sensor.max_step_px();
     std::uint64_t due = 0;
-    std::int64_t since_us = before_us;
+    std::int64_t longest_gap_us = step_us_;
     for (std::size_t i = 0; i < layers_.size(); ++i) {
         LayerState& layer = layers_[i];
         const double moved_px = layer.motion == LayerMotion::moving
                                     ? displacement_px(layer, layer.looked, layer.now)
                                     : 0;
         if (moved_px == 0) {
-            layer.looked_us = now_us_;
+            layer.looks_us.fill(now_us_);
             continue;
         }
-        const bool late = now_us_ - layer.looked_us >= longest_unseen_us;
-        if (!late && !marked && moved_px + layer.step_px <= wanted_px) continue;
+        const std::int64_t gap_us = now_us_ - layer.looks_us.front();
+        if (gap_us < longest_unseen_us && !marked && moved_px + layer.step_px <= wanted_px) {
+            continue;
+        }
         due |= std::uint64_t{1} << (i % 64);
-        since_us = std::min(since_us, layer.looked_us);
+        longest_gap_us = std::max(longest_gap_us, gap_us);
         if (!marked) edges_.place(i, layer.now);
         layer.looked = layer.now;
-        layer.looked_us = now_us_;
+        layer.look_count += 1;
+        layer.looked_now = true;
     }
     if (due == 0) return;
-    // A pixel that stays blind over the next looks as well: what it sees now is forgotten.
-    const std::int64_t in_vain_us = now_us_ + std::max(4 * step_us_, 2 * (now_us_ - since_us));
+    // A pixel that stays blind over its next looks as well: what it sees now is forgotten.
+    const std::int64_t in_vain_us = now_us_ + 2 * ActivePixels::greatest_stride * longest_gap_us;
     for (const auto& pixel : active_.pixels()) {
         if ((pixel.layers & due) == 0) continue;
         if (pixels_->blind_beyond(pixel.index, in_vain_us)) continue;
-        pixels_->look(pixel.index, since_us, now_us_, active_.brightness(edges_, pixel), pending_);
+        const auto first_due = static_cast<std::size_t>(std::countr_zero(pixel.layers & due));
+        const LayerState& layer = layers_[first_due];
+        if ((layer.look_count + pixel.index) % pixel.stride != 0) continue;
+        pixels_->look(pixel.index, layer.looks_us[pixel.stride - 1], now_us_,
+                      active_.brightness(edges_, pixel), pending_);
+    }
+    for (LayerState& layer : layers_) {
+        if (!std::exchange(layer.looked_now, false)) continue;
+        std::shift_right(layer.looks_us.begin(), layer.looks_us.end(), 1);
+        layer.looks_us.front() = now_us_;
     }
 }
 
 /// Nothing will be seen any more that happened before this time.
 std::int64_t SceneSimulator::settled_us() const {
     std::int64_t settled_us = now_us_;
-    for (const LayerState& layer : layers_) settled_us = std::min(settled_us, layer.looked_us);
+    for (const LayerState& layer : layers_)
+        settled_us = std::min(settled_us, layer.looks_us.back());
     return settled_us;
 }
 
 void SceneSimulator::step() {
-    const std::int64_t before_us = now_us_;
     now_us_ = place_next();
-    for (LayerState& layer : layers_) layer.now = layer.next;
+    for (LayerState& layer : layers_) {
+        layer.before = layer.now;
+        layer.now = layer.next;
+    }
     pixels_->noise(now_us_, pending_);
     const bool marking = mark_needed();
     if (marking) mark();
-    look(before_us, marking);
+    look(marking);
 }
 
 bool SceneSimulator::next(std::int64_t slice_us, std::vector<Event>& events) {

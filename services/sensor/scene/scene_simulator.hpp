@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -53,10 +54,14 @@ class SceneSimulator {
     struct LayerState {
         LayerMotion motion = LayerMotion::fixed;
         std::vector<Point> corners;  // of its bounding box, layer frame
+        PlanarMap before;            // one step ago
         PlanarMap now;
         PlanarMap next;
         PlanarMap looked;  // when its pixels were last looked at
-        std::int64_t looked_us = 0;
+        // When the last looks were, the newest first.
+        std::array<std::int64_t, ActivePixels::greatest_stride> looks_us{};
+        std::uint32_t look_count = 0;
+        bool looked_now = false;
         PlanarMap marked;  // at the last mark()
         double step_px = 0;
     };
@@ -67,7 +72,7 @@ class SceneSimulator {
     std::int64_t place_next();
     bool mark_needed() const;
     void mark();
-    void look(std::int64_t t_us, bool marked);
+    void look(bool marked);
 
     DrawnScene drawn_;
     std::optional<std::int64_t> duration_us_;
@@ -77,9 +82,9 @@ class SceneSimulator {
     std::vector<LayerState> layers_;
     std::optional<PixelArray> pixels_;
 
-    std::int64_t now_us_ = 0;   // the last step
-    std::int64_t step_us_ = 1;  // its length
-    std::int64_t marked_us_ = 0;
+    std::int64_t now_us_ = 0;         // the last step
+    std::int64_t step_us_ = 1;        // its length
+    std::int64_t mark_until_us_ = 0;  // when the active pixels are found anew at the latest
     std::int64_t time_us_ = 0;
     std::vector<Event> pending_;  // not yet handed out, not in order
 };

@@ -124,5 +124,132 @@ TEST(SceneSimulator, fires_at_the_times_that_an_edge_s_profile_gives) {
     }
 }
 
+/// Events by brute force: every pixel looks every `step_us`.
+std::vector<Event> brute_force(const Scene& scene, std::int64_t step_us, std::int64_t end_us) {
+    const DrawnScene drawn = draw_scene(scene, 1);
+    const double blur_px = drawn.sensor.blur_px();
+    ImageEdges edges(drawn, std::sqrt(blur_px * blur_px + 1.0 / 12));
+    ActivePixels all(drawn.geometry, drawn.background_reflectance, 0.8);
+    const auto look = [&](std::int64_t t_us) {
+        for (std::size_t i = 0; i < drawn.layers.size(); ++i) {
+            const double t_s = static_cast<double>(t_us) / 1e6;
+            edges.place(i, image_from_layer(drawn, drawn.layers[i], t_s));
+        }
+        return all.brightness_of_all(edges);
+    };
+    PixelArray pixels(drawn.geometry, drawn.sensor, 1, look(0));
+    std::vector<Event> events;
+    for (std::int64_t t_us = step_us; t_us <= end_us; t_us += step_us) {
+        const auto brightness = look(t_us);
+        for (std::uint32_t i = 0; i < brightness.size(); ++i) {
+            pixels.look(i, t_us - step_us, t_us, brightness[i], events);
+        }
+    }
+    return events;
+}
+
+/// Compares by pixel; `speed_px_s` makes times into ways.
+void expect_the_same(const std::vector<Event>& events, const std::vector<Event>& expected,
+                     double speed_px_s) {
+    using ByPixel = std::map<std::pair<int, int>, std::vector<Event>>;
+    ByPixel ours;
+    ByPixel theirs;
+    for (const Event& e : events) ours[{e.x, e.y}].push_back(e);
+    for (const Event& e : expected) theirs[{e.x, e.y}].push_back(e);
+    std::size_t pixels = 0;
+    std::size_t other = 0;  // a threshold just reached, or just not
+    double sum_px = 0;
+    std::size_t matched = 0;
+    for (const auto& [place, list] : theirs) {
+        const auto& mine = ours[place];
+        ++pixels;
+        bool same = mine.size() == list.size();
+        for (std::size_t i = 0; same && i < list.size(); ++i) {
+            same = mine[i].polarity == list[i].polarity;
+        }
+        if (!same) {
+            ++other;
+            continue;
+        }
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const double way_px =
+                std::abs(static_cast<double>(mine[i].t_us - list[i].t_us)) * speed_px_s / 1e6;
+            sum_px += way_px;
+            ++matched;
+        }
+    }
+    EXPECT_GT(matched, 1000U);
+    EXPECT_LE(static_cast<double>(other), 0.03 * static_cast<double>(pixels));
+    EXPECT_LT(sum_px / static_cast<double>(matched), 0.01);
+    EXPECT_NEAR(static_cast<double>(events.size()), static_cast<double>(expected.size()),
+                0.005 * static_cast<double>(expected.size()));
+}
+
+TEST(SceneSimulator, leaves_out_no_look_that_matters_at_a_turning_star) {
+    for (const std::string refractory : {"0", "900"}) {
+        const Scene scene = scene_of(
+            "name: \"s\" duration_s: 0.04 background_reflectance: 0.8 sensor { " + ideal_sensor +
+            " refractory_us: " + refractory +
+            " width: 80 height: 80 } layer { shape { kind: STAR size_px: 20 reflectance: 0.1 } "
+            "trajectory { disc { centre_x_px: 40 centre_y_px: 40 radius_px: 12 rpm: 670 } } }");
+        expect_the_same(all_events(scene, 1, 5000), brute_force(scene, 25, 40000), 2000);
+    }
+}
+
+TEST(SceneSimulator, leaves_out_no_look_that_matters_where_slow_and_fast_layers_overlap) {
+    const Scene scene = scene_of(
+        "name: \"s\" duration_s: 0.4 background_reflectance: 0.4 sensor { " + ideal_sensor +
+        " refractory_us: 900 width: 100 height: 50 } "
+        "layer { shape { kind: VAN size_px: 50 reflectance: 0.9 } trajectory { x_px: 20 y_px: 28 "
+        "vx_px_s: 150 } } "
+        "layer { shape { kind: RECTANGLE size_px: 6 aspect: 9 reflectance: 0.2 } trajectory { "
+        "x_px: 70 y_px: 25 } } "
+        "layer { shape { kind: CAR size_px: 40 reflectance: 0.1 } trajectory { x_px: 60 y_px: 20 "
+        "vx_px_s: 12 } }");
+    expect_the_same(all_events(scene, 1, 5000), brute_force(scene, 200, 400000), 150);
+}
+
+TEST(SceneSimulator, hides_what_is_behind_a_layer_in_front) {
+    // A star turns behind a larger square of its own background's brightness.
+    const std::string begin =
+        "name: \"s\" duration_s: 0.2 background_reflectance: 0.8 sensor { " + ideal_sensor + " } ";
+    const std::string star =
+        "layer { track: \"star\" shape { kind: STAR size_px: 10 reflectance: 0.1 } trajectory { "
+        "x_px: 32 y_px: 16 omega_rad_s: 20 } } ";
+    const std::string square =
+        "layer { shape { kind: RECTANGLE size_px: 28 reflectance: 0.8 } trajectory { x_px: 32 "
+        "y_px: 16 } } ";
+    const auto seen = all_events(scene_of(begin + star + square), 1, 5000);
+    const auto hidden = all_events(scene_of(begin + square + star), 1, 5000);
+    EXPECT_GT(seen.size(), 1000U);
+    EXPECT_EQ(hidden.size(), 0U);
+    EXPECT_EQ(SceneSimulator(scene_of(begin + star + square), 1).truth(0)[0].visible_fraction, 1);
+    EXPECT_EQ(SceneSimulator(scene_of(begin + square + star), 1).truth(0)[0].visible_fraction, 0);
+}
+
+TEST(SceneSimulator, gives_no_event_of_what_stands_still) {
+    const Scene scene = scene_of(
+        "name: \"s\" duration_s: 1 sensor { " + ideal_sensor +
+        " } layer { shape { kind: STAR size_px: 10 reflectance: 0.1 } trajectory { x_px: 32 y_px: "
+        "16 key { t_s: 0.2 x_px: 0 } key { t_s: 0.4 x_px: 5 } } }");
+    const auto events = all_events(scene, 1, 5000);
+    EXPECT_GT(events.size(), 50U);
+    for (const Event& e : events) {
+        EXPECT_GT(e.t_us, 200000);
+        EXPECT_LT(e.t_us, 405000);  // the last look after a slow stop is at most 5 ms late
+    }
+}
+
+TEST(SceneSimulator, goes_on_for_ever_where_the_scene_states_no_duration) {
+    const Scene scene = scene_of("name: \"s\" sensor { width: 16 height: 16 noise_hz: 10 }");
+    SceneSimulator simulator(scene, 1);
+    EXPECT_FALSE(simulator.duration_us());
+    std::vector<Event> events;
+    for (int i = 0; i < 100; ++i) ASSERT_TRUE(simulator.next(1000000, events));
+    // 100 s of 256 pixels at 10 Hz and 10 at 60 Hz, each blind for 0.9 ms after an event.
+    const double expected = 100 * (246 * 10 / (1 + 0.009) + 10 * 60 / (1 + 0.054));
+    EXPECT_NEAR(static_cast<double>(events.size()), expected, 4 * std::sqrt(expected));
+}
+
 }  // namespace
 }  // namespace pursuit::sensor

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/sensor/scene/scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "services/sensor/scene/scene_simulator.hpp"
+
+namespace pursuit::sensor {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+std::string error_of(const std::string& text) {
+    const auto scene = parse_scene(text, "s.textproto");
+    return scene ? "no error" : scene.error().message;
+}
+
+const std::string layer_of = "name: \"s\" layer { ";
+const std::string square = "polygon { xy_px: [0, 0, 10, 0, 10, 10, 0, 10] } ";
+
+TEST(LoadScene, knows_each_built_in_scene_under_its_own_name) {
+    const auto names = list_builtin_scenes();
+    EXPECT_THAT(names, Contains("overtake"));
+    EXPECT_THAT(names, Contains("star_670rpm"));
+    for (const auto& name : names) {
+        const auto scene = load_scene(name);
+        ASSERT_TRUE(scene) << scene.error().message;
+        EXPECT_EQ(scene->description().name(), name);
+    }
+}
+
+TEST(LoadScene, gives_every_tracked_shape_of_a_built_in_scene_between_60_and_110_points) {
+    for (const auto& name : list_builtin_scenes()) {
+        const SceneSimulator simulator(*load_scene(name), 1);
+        ASSERT_FALSE(simulator.models().empty()) << name;
+        for (const auto& model : simulator.models()) {
+            EXPECT_GE(model.model.points.size(), 58U) << name;
+            EXPECT_LE(model.model.points.size(), 110U) << name;
+            EXPECT_EQ(model.model.edges.size(), model.model.points.size()) << name;
+        }
+    }
+}
+
+TEST(LoadScene, names_the_built_in_scenes_where_it_finds_nothing) {
+    const auto scene = load_scene("no_such_scene");
+    ASSERT_FALSE(scene);
+    EXPECT_THAT(scene.error().message, HasSubstr("no_such_scene"));
+    EXPECT_THAT(scene.error().message, HasSubstr("star_1250rpm"));
+}
+
+TEST(LoadScene, reads_a_file) {
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("pursuit_scene_test_" + std::to_string(::getpid()) + ".scene.textproto");
+    std::ofstream(path) << "name: \"mine\" duration_s: 1";
+    const auto scene = load_scene(path.string());
+    std::filesystem::remove(path);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->description().name(), "mine");
+}
+
+TEST(ParseScene, names_file_and_line_of_an_unknown_field) {
+    EXPECT_THAT(error_of("name: \"s\"\nlayers { }"), HasSubstr("s.textproto:2:"));
+}
+
+TEST(ParseScene, refuses_what_cannot_be_simulated_and_says_where) {
+    EXPECT_THAT(error_of("name: \"a b\""), HasSubstr("name"));
+    EXPECT_THAT(error_of(layer_of + "}"), HasSubstr("layer 0"));
+    EXPECT_THAT(error_of(layer_of + "polygon { xy_px: [0, 0, 1] } }"), HasSubstr("odd number"));
+    EXPECT_THAT(error_of(layer_of + "polygon { xy_px: [0, 0, 9, 0] } }"), HasSubstr("2 corners"));
+    EXPECT_THAT(error_of(layer_of + "polygon { xy_px: [0, 0, 9, 0, 0, 0] } }"),
+                HasSubstr("layer 0.polygon 0"));
+    EXPECT_THAT(error_of(layer_of + "polygon { xy_px: [0, 0, 9, 9, 9, 0, 0, 9] } }"),
+                HasSubstr("crosses itself"));
+    EXPECT_THAT(error_of(layer_of + "polygon { xy_px: [0, 0, 5, 0, 9, 0] } }"),
+                HasSubstr("layer 0.polygon 0"));
+    EXPECT_THAT(error_of(layer_of + "track: \"a/b\" " + square + "}"), HasSubstr("track"));
+    EXPECT_THAT(error_of(layer_of + "track: \"\" " + square + "}"), HasSubstr("track"));
+    EXPECT_THAT(
+        error_of(layer_of + "track: \"a\" " + square + "} layer { track: \"a\" " + square + "}"),
+        HasSubstr("layer 1.track"));
+    EXPECT_THAT(error_of(layer_of + square + "trajectory { key { t_s: 1 } key { t_s: 1 } } }"),
+                HasSubstr("key 1"));
+    EXPECT_THAT(error_of(layer_of + square +
+                         "trajectory { sine { target: SCALE amplitude: 1 frequency_hz: 1 } } }"),
+                HasSubstr("scale"));
+    EXPECT_THAT(error_of(layer_of + square +
+                         "trajectory { scale: 20 focal_px: 50 sine { target: TILT_X amplitude: 1 "
+                         "frequency_hz: 1 } } }"),
+                HasSubstr("focal_px"));
+    EXPECT_THAT(error_of(layer_of + "clutter { count: 1 x_px { low: 2 high: 1 } y_px { low: 0 "
+                                    "high: 1 } size_px { low: 9 high: 9 } } }"),
+                HasSubstr("clutter"));
+    EXPECT_THAT(error_of("name: \"s\" sensor { threshold: 0 }"), HasSubstr("threshold"));
+    EXPECT_THAT(error_of("name: \"s\" camera { sine { target: SHEAR amplitude: 1 frequency_hz: 1 "
+                         "} }"),
+                HasSubstr("camera"));
+}
+
+}  // namespace
+}  // namespace pursuit::sensor
