@@ -40,7 +40,7 @@ class RequestClient {
         std::unique_lock lock(mutex_);
         const auto until = std::chrono::steady_clock::now() + at_most;
         while (writer_->matched() == 0 || reader_->matched() == 0) {
-            if (std::chrono::steady_clock::now() >= until) return false;
+            if (cancelled_ || std::chrono::steady_clock::now() >= until) return false;
             changed_.wait_for(lock, std::chrono::milliseconds(5));
         }
         return true;
@@ -66,14 +66,22 @@ class RequestClient {
             return fail("a request on " + topic_ + " could not be sent");
         }
         lock.lock();
-        const bool answered =
-            changed_.wait_until(lock, until, [&] { return waiting_.at(key).has_value(); });
+        const bool answered = changed_.wait_until(lock, until, [&] {
+            return cancelled_ || waiting_.at(key).has_value();
+        }) && waiting_.at(key).has_value();
         auto reply = std::move(waiting_.extract(key).mapped());
         if (!answered) {
             return fail("no reply on " + topic_ + " within " + std::to_string(at_most.count()) +
                         " ms");
         }
         return std::move(*reply);
+    }
+
+    /// Ends every call that waits, now and from now on: the process is to end.
+    void cancel() {
+        const std::scoped_lock lock(mutex_);
+        cancelled_ = true;
+        changed_.notify_all();
     }
 
  private:
@@ -93,6 +101,7 @@ class RequestClient {
     std::mutex mutex_;
     std::condition_variable changed_;
     std::int64_t sequence_ = 0;
+    bool cancelled_ = false;
     std::map<RequestKey, std::optional<Reply>> waiting_;
     std::unique_ptr<Writer<Request>> writer_;
     std::unique_ptr<Reader<Reply>> reader_;

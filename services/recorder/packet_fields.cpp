@@ -23,6 +23,11 @@ std::optional<PacketFields> PacketFields::of(std::span<const std::uint8_t> paylo
     return fields;
 }
 
+std::int64_t PacketFields::first_us() const {
+    if (words() == 0) return base_time_us();
+    return base_time_us() + static_cast<std::int64_t>(read(words_offset, 8) >> 32);
+}
+
 std::int64_t PacketFields::reached_us() const {
     const auto base_us = base_time_us();
     const std::size_t count = words();

@@ -24,6 +24,9 @@ class PacketFields {
     std::int64_t recorded_host_time_ns() const { return static_cast<std::int64_t>(read(40, 8)); }
     std::uint32_t words() const { return static_cast<std::uint32_t>(read(64, 4)); }
 
+    /// The time of its first event, or its base time where it has none, µs.
+    std::int64_t first_us() const;
+
     /// How far event time is once this packet is processed, µs: its last event or its base time.
     std::int64_t reached_us() const;
 

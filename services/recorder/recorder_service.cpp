@@ -2,6 +2,7 @@
 #include "services/recorder/recorder_service.hpp"
 
 #include "services/recorder/record/record_activity.hpp"
+#include "services/recorder/replay/replay_activity.hpp"
 #include "services/recorder/topic_table.hpp"
 
 namespace pursuit::recorder {
@@ -38,13 +39,16 @@ Result<std::unique_ptr<Service>> RecorderService::make(const disk::RecorderConfi
     if (configuration.output().empty() == configuration.replay().empty()) {
         return fail("exactly one of the fields output and replay must be set");
     }
-    if (!configuration.replay().empty()) return fail("field replay: not built into this version");
     const double rate = configuration.rate();
     if (rate > 0 && rate < 0.001) {
         return fail("field rate must be 0 (as fast as possible) or 0.001 to 1000");
     }
     for (const auto& topic : configuration.topic()) {
-        if (find_raw_topic(topic) != nullptr) continue;
+        if (find_raw_topic(topic) != nullptr) {
+            const auto refusal = ReplayActivity::refusal_of(topic);
+            if (configuration.replay().empty() || refusal.empty()) continue;
+            return fail("field topic: " + refusal);
+        }
         std::string names;
         for (const auto& known : raw_topics()) names += std::string(" ") + known.name;
         return fail("field topic: there is no topic \"" + topic + "\"; there are" + names);
@@ -56,7 +60,11 @@ RecorderService::RecorderService(const disk::RecorderConfig& configuration)
     : configuration_(configuration),
       instance_(configuration.name().empty() ? "default" : configuration.name()),
       health_(configuration) {
-    activity_ = std::make_unique<RecordActivity>(configuration_, health_);
+    if (configuration_.replay().empty()) {
+        activity_ = std::make_unique<RecordActivity>(configuration_, health_);
+    } else {
+        activity_ = std::make_unique<ReplayActivity>(configuration_, health_);
+    }
 }
 
 RecorderService::~RecorderService() { stop(); }
