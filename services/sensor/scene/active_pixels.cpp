@@ -5,13 +5,6 @@
 #include <cmath>
 
 namespace pursuit::sensor {
-namespace {
-
-/// Nearer than this, in sigmas, an edge counts; the jump there is 2e-4 of its contrast.
-constexpr float cut_sigmas = 3.5F;
-
-}  // namespace
-
 ActivePixels::ActivePixels(Geometry geometry, double background_reflectance, double margin_px)
     : geometry_(geometry),
       background_(static_cast<float>(background_reflectance)),
@@ -155,7 +148,7 @@ void ActivePixels::describe(const ImageEdges& edges, std::uint32_t index, std::u
     const auto x = static_cast<float>(column);
     const auto y = static_cast<float>(row);
     const auto polygons = edges.polygons();
-    Pixel pixel{index, static_cast<std::uint32_t>(terms_.size()), 0, background_, layers, 1};
+    Pixel pixel{index, static_cast<std::uint32_t>(terms_.size()), 0, background_, layers, 0, 0};
     auto next = scratch_.begin();
     const auto add_term = [&](std::uint32_t polygon) {
         Term term{polygon, static_cast<std::uint32_t>(near_.size()), 0};
@@ -186,24 +179,35 @@ void ActivePixels::describe(const ImageEdges& edges, std::uint32_t index, std::u
     for (auto e = scratch_.begin(); e != next; ++e) {
         fastest = std::max(fastest, edges.normal_share(*e));
     }
-    pixel.stride = static_cast<std::uint32_t>(1 / std::max(fastest, 1.0F / greatest_stride));
+    pixel.normal_share = fastest;
+    float darkest = pixel.rest;
+    float brightest = pixel.rest;
+    std::uint32_t near_count = 0;
+    for (std::uint32_t i = 0; i < pixel.term_count; ++i) {
+        const Term& term = terms_[pixel.first_term + i];
+        darkest = std::min(darkest, polygons[term.polygon].reflectance);
+        brightest = std::max(brightest, polygons[term.polygon].reflectance);
+        near_count += term.near_count;
+    }
+    pixel.contrast = (brightest - darkest) * static_cast<float>(near_count);
     pixels_.push_back(pixel);
 }
 
-float ActivePixels::brightness(const ImageEdges& edges, const Pixel& pixel) const {
+ActivePixels::Sight ActivePixels::sight(const ImageEdges& edges, const Pixel& pixel) const {
     const auto x = static_cast<float>(pixel.index % geometry_.width);
     const auto y = static_cast<float>(pixel.index / geometry_.width);
     float seen = 0;
     float open = 1;
+    float nearest = cut_sigmas;
     for (std::uint32_t i = 0; i < pixel.term_count; ++i) {
         const Term& term = terms_[pixel.first_term + i];
         const ImagePolygon& polygon = edges.polygons()[term.polygon];
         const float cover =
-            edges.coverage(polygon, {&near_[term.first_near], term.near_count}, x, y);
+            edges.coverage(polygon, {&near_[term.first_near], term.near_count}, x, y, nearest);
         seen += open * cover * polygon.reflectance;
         open *= 1 - cover;
     }
-    return seen + open * pixel.rest;
+    return {seen + open * pixel.rest, nearest};
 }
 
 std::vector<float> ActivePixels::brightness_of_all(const ImageEdges& edges) {
@@ -218,7 +222,7 @@ std::vector<float> ActivePixels::brightness_of_all(const ImageEdges& edges) {
     pixels_.clear();
     for (std::uint32_t index = 0; index < all.size(); ++index) {
         describe(edges, index, 0);
-        all[index] = brightness(edges, pixels_.back());
+        all[index] = sight(edges, pixels_.back()).brightness;
         pixels_.clear();
         terms_.clear();
         near_.clear();

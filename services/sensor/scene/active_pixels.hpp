@@ -20,7 +20,7 @@ enum class LayerMotion : std::uint8_t {
 /// The pixels whose brightness can change now, and what each of them sees: the few edges near it,
 /// front to back, down to the first polygon that covers it.
 ///
-/// mark() finds them for polygons that will move by less than `margin_px`; after that brightness()
+/// mark() finds them for polygons that will move by less than `margin_px`; after that sight()
 /// follows the edges from where they are. Memory: proportional to the area of the bands about all
 /// edges in the image.
 class ActivePixels {
@@ -31,7 +31,8 @@ class ActivePixels {
         std::uint32_t term_count;
         float rest;            ///< Reflectance of what covers it behind the terms.
         std::uint64_t layers;  ///< Bit (layer mod 64) of each moving layer near it.
-        std::uint32_t stride;  ///< Every how many looks suffice: the edges near it move askew.
+        float normal_share;    ///< How far edges near it move along their normals, as a share.
+        float contrast;        ///< Bounds what it sees change when a Gaussian's tail goes by.
     };
 
     ActivePixels(Geometry geometry, double background_reflectance, double margin_px);
@@ -43,15 +44,21 @@ class ActivePixels {
 
     const std::vector<Pixel>& pixels() const { return pixels_; }
 
-    /// Brightness of an active pixel, 0 … 1, with the edges where they are now.
-    float brightness(const ImageEdges& edges, const Pixel& pixel) const;
+    struct Sight {
+        float brightness;      ///< 0 … 1.
+        float nearest_sigmas;  ///< No edge is nearer.
+    };
+
+    /// What an active pixel sees with the edges where they are now.
+    Sight sight(const ImageEdges& edges, const Pixel& pixel) const;
 
     /// Brightness of every pixel, by index: whole, once.
     std::vector<float> brightness_of_all(const ImageEdges& edges);
 
     double margin_px() const { return margin_px_; }
 
-    static constexpr std::uint32_t greatest_stride = 4;
+    /// Nearer than this, in sigmas, an edge counts; the jump there is 2e-4 of its contrast.
+    static constexpr float cut_sigmas = 3.5F;
 
  private:
     static constexpr std::uint32_t none = 0xffffffffU;

@@ -32,6 +32,16 @@ GaussianCoverage::GaussianCoverage() {
     for (int i = 0; i < tail_size; ++i) {
         tail_[i] = static_cast<float>(normal_tail(static_cast<double>(i) / tail_steps_per_unit));
     }
+    for (int i = 0; i < distance_steps + 2; ++i) {
+        const double share = static_cast<double>(i) / distance_steps;
+        double low = -reach;
+        double high = reach;
+        for (int k = 0; k < 40; ++k) {
+            const double middle = (low + high) / 2;
+            (normal_tail(middle) > share ? low : high) = middle;
+        }
+        distance_[i] = static_cast<float>(high);
+    }
     for (int i = 0; i < size; ++i) {
         for (int k = 0; k < size; ++k) {
             triangle_[i][k] = static_cast<float>(triangle_share(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -36,6 +37,14 @@ class GaussianCoverage {
         return tail_[i] + u * (tail_[i + 1] - tail_[i]);
     }
 
+    /// The h whose tail is `share`, 0 < share < 1; for the smallest shares `reach`.
+    float distance(float share) const {
+        const float place = share * distance_steps;
+        const int i = static_cast<int>(place);
+        const float u = place - static_cast<float>(i);
+        return distance_[i] + u * (distance_[i + 1] - distance_[i]);
+    }
+
     /// G(h, t), h ≥ 0, odd in t.
     float edge_part(float h, float t) const {
         const float length = std::abs(t);
@@ -44,15 +53,28 @@ class GaussianCoverage {
         if (length >= reach) {
             part = tail(h) / 2;
         } else {
-            part = std::atan2(length, h) * static_cast<float>(0.15915494309189535) -
-                   triangle(h, length);
+            part = angle(length, h) * 0.159154943F - triangle(h, length);
         }
         return t < 0 ? -part : part;
     }
 
  private:
+    /// atan2(y, x) of two numbers that are not negative; error below 2e-5 (Abramowitz and Stegun
+    /// 4.4.47).
+    static float angle(float y, float x) {
+        const float larger = std::max(x, y);
+        if (larger <= 0) return 0;
+        const float z = std::min(x, y) / larger;
+        const float z2 = z * z;
+        const float a =
+            z * (0.9998660F +
+                 z2 * (-0.3302995F + z2 * (0.1801410F + z2 * (-0.0851330F + z2 * 0.0208351F))));
+        return y > x ? 1.57079633F - a : a;
+    }
+
     static constexpr int tail_steps_per_unit = 64;
     static constexpr int tail_size = 4 * tail_steps_per_unit + 2;
+    static constexpr int distance_steps = 512;
     static constexpr int steps_per_unit = 20;
     static constexpr int size = 4 * steps_per_unit + 2;
 
@@ -71,6 +93,7 @@ class GaussianCoverage {
     }
 
     std::array<float, tail_size> tail_{};
+    std::array<float, distance_steps + 2> distance_{};
     std::array<std::array<float, size>, size> triangle_{};
 };
 

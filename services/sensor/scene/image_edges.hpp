@@ -54,10 +54,11 @@ class ImageEdges {
     double sigma_px() const { return sigma_px_; }
 
     /// Share of the pixel at (x, y) that `polygon` covers; `near` names every edge of it within
-    /// GaussianCoverage::reach · sigma_px, ascending, at least one.
+    /// GaussianCoverage::reach · sigma_px, ascending, at least one. Lowers `nearest` to the
+    /// distance of the nearest one, in sigmas, or less.
     float coverage(const ImagePolygon& polygon, std::span<const std::uint32_t> near, float x,
-                   float y) const {
-        return coverage(polygon, near, x, y, true);
+                   float y, float& nearest) const {
+        return coverage(polygon, near, x, y, nearest, true);
     }
 
     /// Whether the point is inside `polygon`.
@@ -65,7 +66,7 @@ class ImageEdges {
 
  private:
     float coverage(const ImagePolygon& polygon, std::span<const std::uint32_t> near, float x,
-                   float y, bool may_step_aside) const;
+                   float y, float& nearest, bool may_step_aside) const;
 
     double sigma_px_;
     float per_sigma_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,6 +35,15 @@ class PixelArray {
     /// Whether the pixel is blind until after `t_us`, so that looking at it then is in vain.
     bool blind_beyond(std::uint32_t index, std::int64_t t_us) const {
         return blind_until_us_[index] > t_us;
+    }
+
+    /// How far brightness may go from what it was at the last look until the pixel fires; 0 where
+    /// that is not settled, because it is blind.
+    float room(std::uint32_t index) const {
+        const State& state = states_[index];
+        return blind_until_us_[index] != never
+                   ? 0
+                   : std::min(state.on_level - state.seen, state.seen - state.off_level);
     }
 
     /// By pixel: until when it is blind; a time in the past where it is not.

@@ -68,6 +68,7 @@ SceneSimulator::SceneSimulator(const Scene& scene, std::uint64_t seed)
         edges_.place(i, state.now);
         layers_.push_back(std::move(state));
     }
+    next_look_.assign(static_cast<std::size_t>(drawn_.geometry.width) * drawn_.geometry.height, 0);
     pixels_.emplace(drawn_.geometry, drawn_.sensor, seed, active_.brightness_of_all(edges_));
     mark();
 }
@@ -148,6 +149,29 @@ void SceneSimulator::mark() {
     active_.mark(edges_, motions, pixels_->blind_until_us(), mark_until_us_);
 }
 
+/// How many looks from now the next one may be, at least 1. With the edges that move by `way` a
+/// look no nearer than d, what the pixel sees changes in n looks by at most contrast · (tail(d - n
+/// way) - tail(d)): no event comes before that has used up the room to the next threshold. Edges
+/// beyond the cut count with full contrast.
+std::uint32_t SceneSimulator::looks_without_event(const ActivePixels::Pixel& pixel,
+                                                  const ActivePixels::Sight& sight) const {
+    constexpr float most = 8;
+    const auto way = static_cast<float>(drawn_.sensor.max_step_px() / edges_.sigma_px());
+    const float stride = std::floor(1 / std::max(pixel.normal_share, 1.0F / greatest_stride));
+    const float room = pixels_->room(pixel.index);
+    if (room <= 0 || std::popcount(pixel.layers) > 1) return static_cast<std::uint32_t>(stride);
+    const auto& gaussian = GaussianCoverage::tables();
+    const auto looks = [&](float contrast, float distance, float way_a_look) {
+        const float share = room / contrast + gaussian.tail(distance);
+        return share >= 1 ? most : (distance - gaussian.distance(share)) / way_a_look;
+    };
+    const float of_near = looks(std::max(pixel.contrast, 1e-3F), sight.nearest_sigmas,
+                                way * std::max(pixel.normal_share, 0.01F));
+    const float of_far = looks(1, ActivePixels::cut_sigmas, way);
+    const float safe = std::floor(std::min({of_near, of_far, most}));
+    return static_cast<std::uint32_t>(std::max(safe, stride));
+}
+
 /// Lets the pixels near layers that have moved far enough look at them.
 void SceneSimulator::look(bool marked) {
     const double wanted_px = drawn_.sensor.max_step_px();
@@ -170,20 +194,20 @@ void SceneSimulator::look(bool marked) {
         longest_gap_us = std::max(longest_gap_us, gap_us);
         if (!marked) edges_.place(i, layer.now);
         layer.looked = layer.now;
-        layer.look_count += 1;
         layer.looked_now = true;
     }
     if (due == 0) return;
+    ++look_count_;
     // A pixel that stays blind over its next looks as well: what it sees now is forgotten.
-    const std::int64_t in_vain_us = now_us_ + 2 * ActivePixels::greatest_stride * longest_gap_us;
+    const std::int64_t in_vain_us = now_us_ + 2 * greatest_stride * longest_gap_us;
     for (const auto& pixel : active_.pixels()) {
-        if ((pixel.layers & due) == 0) continue;
+        if ((pixel.layers & due) == 0 || next_look_[pixel.index] > look_count_) continue;
         if (pixels_->blind_beyond(pixel.index, in_vain_us)) continue;
-        const auto first_due = static_cast<std::size_t>(std::countr_zero(pixel.layers & due));
-        const LayerState& layer = layers_[first_due];
-        if ((layer.look_count + pixel.index) % pixel.stride != 0) continue;
-        pixels_->look(pixel.index, layer.looks_us[pixel.stride - 1], now_us_,
-                      active_.brightness(edges_, pixel), pending_);
+        const auto sight = active_.sight(edges_, pixel);
+        const LayerState& layer =
+            layers_[static_cast<std::size_t>(std::countr_zero(pixel.layers & due))];
+        pixels_->look(pixel.index, layer.looks_us.back(), now_us_, sight.brightness, pending_);
+        next_look_[pixel.index] = look_count_ + looks_without_event(pixel, sight);
     }
     for (LayerState& layer : layers_) {
         if (!std::exchange(layer.looked_now, false)) continue;

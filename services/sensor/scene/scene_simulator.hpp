@@ -51,6 +51,9 @@ class SceneSimulator {
     const DrawnScene& drawn() const { return drawn_; }
 
  private:
+    /// Pixels may be looked at every so many looks, where edges move along themselves.
+    static constexpr std::uint32_t greatest_stride = 4;
+
     struct LayerState {
         LayerMotion motion = LayerMotion::fixed;
         std::vector<Point> corners;  // of its bounding box, layer frame
@@ -59,8 +62,7 @@ class SceneSimulator {
         PlanarMap next;
         PlanarMap looked;  // when its pixels were last looked at
         // When the last looks were, the newest first.
-        std::array<std::int64_t, ActivePixels::greatest_stride> looks_us{};
-        std::uint32_t look_count = 0;
+        std::array<std::int64_t, greatest_stride> looks_us{};
         bool looked_now = false;
         PlanarMap marked;  // at the last mark()
         double step_px = 0;
@@ -73,6 +75,8 @@ class SceneSimulator {
     bool mark_needed() const;
     void mark();
     void look(bool marked);
+    std::uint32_t looks_without_event(const ActivePixels::Pixel& pixel,
+                                      const ActivePixels::Sight& sight) const;
 
     DrawnScene drawn_;
     std::optional<std::int64_t> duration_us_;
@@ -86,7 +90,9 @@ class SceneSimulator {
     std::int64_t step_us_ = 1;        // its length
     std::int64_t mark_until_us_ = 0;  // when the active pixels are found anew at the latest
     std::int64_t time_us_ = 0;
-    std::vector<Event> pending_;  // not yet handed out, not in order
+    std::uint64_t look_count_ = 0;
+    std::vector<std::uint64_t> next_look_;  // by pixel: the look at which it looks again
+    std::vector<Event> pending_;            // not yet handed out, not in order
 };
 
 }  // namespace pursuit::sensor
