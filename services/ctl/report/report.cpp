@@ -187,7 +187,7 @@ class Page {
             }
         };
         say(film_.size(), report_.slices.size(), "pictures");
-        say(objects_, report_.objects.size(), "objects have curves and outlines; all others");
+        say(objects_, report_.objects.size(), "objects with curves and outlines");
         say(std::min(report_.objects.size(), limits_.table_rows), report_.objects.size(),
             "rows of the table of objects");
         say(std::min(report_.latencies.size(), limits_.table_rows), report_.latencies.size(),

@@ -62,7 +62,9 @@ Result<std::size_t> MemoryInput::read_at(std::uint64_t offset, std::span<std::ui
 }
 
 SequentialInput::SequentialInput(Input& input, std::uint64_t size)
-    : input_(&input), size_(size), buffer_(buffer_bytes) {}
+    : input_(&input),
+      size_(size),
+      buffer_(static_cast<std::size_t>(std::min<std::uint64_t>(size, buffer_bytes))) {}
 
 Result<void> SequentialInput::read(std::span<std::uint8_t> into) {
     const auto all = into;

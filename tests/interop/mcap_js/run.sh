@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# run.sh BUILD_FOLDER WRITE_SAMPLE: lets the JavaScript reader of the MCAP project read what we
-# write. Its packages are installed into the build folder, once for each package.json.
+# run.sh BUILD_FOLDER WRITE_SAMPLE READ_FOREIGN: lets the JavaScript library of the MCAP project read
+# what we write, and us what it writes. Its packages are installed into the build folder, once for each package.json.
 set -euo pipefail
 source=$(cd "$(dirname "$0")" && pwd)
 build=$1
 write_sample=$2
+read_foreign=$3
 
 skip() {
     echo "skipped: $*"
@@ -16,7 +17,7 @@ command -v npm >/dev/null || skip "npm is not installed"
 (($(node -p 'process.versions.node.split(".")[0]') >= 18)) || skip "node is older than 18"
 
 mkdir -p "$build"
-cp "$source/read_sample.mjs" "$build"
+cp "$source"/*.mjs "$build"
 if ! cmp -s "$source/package.json" "$build/installed.json"; then
     cp "$source/package.json" "$build"
     log=$(cd "$build" && timeout 120 npm install --no-package-lock --no-audit --no-fund 2>&1) ||
@@ -25,3 +26,5 @@ if ! cmp -s "$source/package.json" "$build/installed.json"; then
 fi
 "$write_sample" "$build"
 node "$build/read_sample.mjs" "$build"
+node "$build/write_foreign.mjs" "$build"
+for file in chunked plain; do "$read_foreign" "$build/foreign_$file.mcap" 500; done

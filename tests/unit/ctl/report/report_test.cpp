@@ -236,7 +236,7 @@ TEST(Report, stays_small_whatever_it_is_given_and_says_what_it_left_out) {
     EXPECT_LE(page.size(), ReportLimits().page_bytes);
     EXPECT_THAT(page, HasSubstr("To keep this page small:"));
     EXPECT_THAT(page, HasSubstr(" of 40 pictures are shown."));
-    EXPECT_THAT(page, HasSubstr("12 of 300 objects have curves"));
+    EXPECT_THAT(page, HasSubstr("12 of 300 objects with curves and outlines are shown."));
     EXPECT_THAT(page, HasSubstr("256 of 300 rows"));
     EXPECT_THAT(page, HasSubstr("256 of 1000 facts"));
     EXPECT_THAT(page, HasSubstr("Curves have at most 700 points"));
