@@ -12,6 +12,8 @@ constexpr Command table[] = {
     {"", "simulate", "Make the events of a scene, and their truth", define_simulate},
     {"", "info", "Tell what is in a recording of events", define_info},
     {"", "convert", "Write a recording of events in another format", define_convert},
+    {"", "report", "Write a page about a recorded run", define_report},
+    {"", "parameters", "List every parameter and preset by name", define_parameters},
 };
 
 }  // namespace

@@ -11,6 +11,8 @@ Run define_evaluate(CLI::App& app);
 Run define_info(CLI::App& app);
 Run define_model_extract(CLI::App& app);
 Run define_simulate(CLI::App& app);
+Run define_parameters(CLI::App& app);
+Run define_report(CLI::App& app);
 Run define_track(CLI::App& app);
 
 }  // namespace pursuit::ctl
