@@ -77,6 +77,9 @@ void PixelArray::look(std::uint32_t index, std::int64_t since_us, std::int64_t t
     std::int64_t& blind_until_us = blind_until_us_[index];
     std::int64_t from_us = std::max(state.look_us, since_us);
     float before = state.seen;
+    // Its blindness ended unseen: no edge was near any more, so that what it sees now is what it
+    // saw then.
+    if (state.look_us < blind_until_us && blind_until_us <= since_us) before = brightness;
     state.look_us = t_us;
     state.seen = brightness;
     for (;;) {

@@ -196,6 +196,15 @@ TEST(SceneSimulator, leaves_out_no_look_that_matters_at_a_turning_star) {
     }
 }
 
+TEST(SceneSimulator, leaves_out_no_look_that_matters_where_edges_come_back_after_a_blindness) {
+    const Scene scene = scene_of(
+        "name: \"s\" duration_s: 0.04 background_reflectance: 0.8 sensor { " + ideal_sensor +
+        " refractory_us: 900 width: 64 height: 64 } layer { shape { kind: ARROW size_px: 16 "
+        "reflectance: 0.1 } trajectory { disc { centre_x_px: 32 centre_y_px: 32 radius_px: 12 rpm: "
+        "3000 } } }");
+    expect_the_same(all_events(scene, 1, 5000), brute_force(scene, 8, 40000), 8000);
+}
+
 TEST(SceneSimulator, leaves_out_no_look_that_matters_where_slow_and_fast_layers_overlap) {
     const Scene scene = scene_of(
         "name: \"s\" duration_s: 0.4 background_reflectance: 0.4 sensor { " + ideal_sensor +
