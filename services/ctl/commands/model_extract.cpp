@@ -60,9 +60,9 @@ int extract(Options& options) {
         return report(ok.error());
     }
     const auto& model = extracted->model;
-    std::printf("%s: %zu points, %s; centre of gravity at (%.2f, %.2f) px\n",
-                options.output.c_str(), model.shape.points_px.size(), model.comment.c_str(),
-                model.origin_px->x(), model.origin_px->y());
+    std::printf("%s: %zu points, %zu links, %s; centre of gravity at (%.2f, %.2f) px\n",
+                options.output.c_str(), model.shape.points_px.size(), model.shape.edges.size(),
+                model.comment.c_str(), model.origin_px->x(), model.origin_px->y());
     return exit_success;
 }
 
@@ -79,6 +79,8 @@ Run define_model_extract(CLI::App& app) {
         ->delimiter(',')
         ->expected(4);
     app.add_option("--points", options->task.points, "At most, 3 to 4096")->capture_default_str();
+    app.add_flag("--links,!--no-links", options->task.links,
+                 "Tell which points a contour joins; without, the tracker infers it");
     app.add_option("--name", options->task.name, "Of the model; else that of the file");
     app.add_option("--output", options->output, "Model to write, *.model.textproto")->required();
     app.add_option("--geometry", options->geometry, geometry_help);

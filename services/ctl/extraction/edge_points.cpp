@@ -6,6 +6,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "services/ctl/extraction/event_cells.hpp"
+
 namespace pursuit::ctl {
 namespace {
 
@@ -13,63 +15,12 @@ constexpr float ridge_sigma_px = 0.8F;
 constexpr int ridge_steps = 2;
 constexpr std::size_t least_neighbours = 3;
 
-int nearest(float value) { return static_cast<int>(std::lround(value)); }
-
-/// Events by the pixel they lie in, with a margin of 3 pixels around all.
-class Pixels {
- public:
-    explicit Pixels(std::span<const Eigen::Vector2f> events_px) {
-        Eigen::Vector2f low = events_px.front();
-        Eigen::Vector2f high = low;
-        for (const auto& event : events_px) {
-            low = low.cwiseMin(event);
-            high = high.cwiseMax(event);
-        }
-        low_x_ = static_cast<int>(std::floor(low.x())) - 3;
-        low_y_ = static_cast<int>(std::floor(low.y())) - 3;
-        width_ = static_cast<int>(std::ceil(high.x())) + 5 - low_x_;
-        height_ = static_cast<int>(std::ceil(high.y())) + 5 - low_y_;
-        events_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-        for (const auto& event : events_px) events_[index_of(event)].push_back(event);
-    }
-
-    int width() const { return width_; }
-    int height() const { return height_; }
-    std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * width_ + x); }
-    std::size_t index_of(const Eigen::Vector2f& at) const { return index(x_of(at), y_of(at)); }
-    int x_of(const Eigen::Vector2f& at) const { return nearest(at.x()) - low_x_; }
-    int y_of(const Eigen::Vector2f& at) const { return nearest(at.y()) - low_y_; }
-    const std::vector<Eigen::Vector2f>& events(std::size_t index) const { return events_[index]; }
-
-    std::size_t neighbours(const Eigen::Vector2f& at) const {
-        std::size_t count = 0;
-        each_around(at, 1, [&](const Eigen::Vector2f&) { ++count; });
-        return count - 1;
-    }
-
-    template <class Take>
-    void each_around(const Eigen::Vector2f& at, int reach, Take take) const {
-        for (int y = y_of(at) - reach; y <= y_of(at) + reach; ++y) {
-            for (int x = x_of(at) - reach; x <= x_of(at) + reach; ++x) {
-                for (const auto& event : events_[index(x, y)]) take(event);
-            }
-        }
-    }
-
- private:
-    int low_x_ = 0;
-    int low_y_ = 0;
-    int width_ = 0;
-    int height_ = 0;
-    std::vector<std::vector<Eigen::Vector2f>> events_;
-};
-
 float weight(const Eigen::Vector2f& distance_px) {
     return std::exp(-distance_px.squaredNorm() / (2 * ridge_sigma_px * ridge_sigma_px));
 }
 
 std::vector<Eigen::Vector2f> without_isolated(std::span<const Eigen::Vector2f> events_px) {
-    const Pixels pixels(events_px);
+    const EventCells pixels(events_px);
     std::vector<std::size_t> counts;
     for (const auto& event : events_px) counts.push_back(pixels.neighbours(event));
     auto sorted = counts;
@@ -86,7 +37,7 @@ std::vector<Eigen::Vector2f> without_isolated(std::span<const Eigen::Vector2f> e
 /// Of a pixel, the smaller eigenvalue of Σ∇d∇dᵀ over 5×5 pixels (Shi and Tomasi, CVPR 1994).
 class CornerMeasure {
  public:
-    explicit CornerMeasure(const Pixels& pixels) : pixels_(pixels) {
+    explicit CornerMeasure(const EventCells& pixels) : pixels_(pixels) {
         density_.resize(static_cast<std::size_t>(pixels.width() * pixels.height()));
         for (int y = 0; y < pixels.height(); ++y) {
             for (int x = 0; x < pixels.width(); ++x) {
@@ -125,7 +76,7 @@ class CornerMeasure {
         return (density(x - dx, y - dy) + 2 * density(x, y) + density(x + dx, y + dy)) / 4;
     }
 
-    const Pixels& pixels_;
+    const EventCells& pixels_;
     std::vector<float> density_;
 };
 
@@ -139,7 +90,7 @@ std::vector<EdgePoint> edge_points(std::span<const Eigen::Vector2f> events_px) {
     std::sort(kept.begin(), kept.end(), [](const Eigen::Vector2f& l, const Eigen::Vector2f& r) {
         return std::tuple(l.y(), l.x()) < std::tuple(r.y(), r.x());
     });
-    const Pixels pixels(kept);
+    const EventCells pixels(kept);
     const CornerMeasure corner(pixels);
     std::vector<EdgePoint> points;
     for (int y = 0; y < pixels.height(); ++y) {

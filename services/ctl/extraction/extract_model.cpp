@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "services/ctl/extraction/contour_links.hpp"
 #include "services/ctl/extraction/dominant_motion.hpp"
 #include "services/ctl/extraction/edge_points.hpp"
 #include "services/ctl/extraction/moved_event.hpp"
@@ -96,6 +97,7 @@ Result<ExtractedModel> extract_model(sensor::EventReader& recording, const Extra
                     " events moved there then: too few for a model");
     }
     if (auto ok = tracker::check(model.shape); !ok) return tl::unexpected(ok.error());
+    if (task.links) model.shape.edges = contour_links(model.shape.points_px, still_px);
     model.origin_px = tracker::centre_of_gravity_px(model.shape);
     model.shape = tracker::centred(std::move(model.shape));
     model.comment = remark_of(extracted, task);

@@ -22,7 +22,8 @@ struct Extraction {
     int y_px = 0;
     int width_px = 0;  ///< … and size; 0: the whole image.
     int height_px = 0;
-    std::size_t points = 200;  ///< At most, 3 … 4096.
+    std::size_t points = 300;  ///< At most, 3 … 4096.
+    bool links = true;         ///< Tell which points a contour joins.
 };
 
 struct ExtractedModel {
@@ -37,6 +38,7 @@ struct ExtractedModel {
 /// 1. The shape's own motion during the window is found and taken back (dominant_motion.hpp).
 /// 2. Isolated events are left out, the rest thinned to the middle of its edges (edge_points.hpp).
 /// 3. Points are taken evenly along them, corners first (thinning.hpp).
+/// 4. Those that a contour joins are linked (contour_links.hpp).
 ///
 /// An error where too few events moved for 3 points, or the events end in one.
 Result<ExtractedModel> extract_model(sensor::EventReader& recording, const Extraction& task);

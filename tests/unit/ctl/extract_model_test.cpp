@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <random>
 
+#include "services/ctl/extraction/contour_links.hpp"
 #include "services/ctl/extraction/dominant_motion.hpp"
 #include "services/ctl/extraction/thinning.hpp"
 
@@ -207,6 +208,44 @@ TEST(Thin, gives_the_number_with_even_spacing) {
         // A covering by discs of twice the radius that packs: even to that factor.
         EXPECT_LE(widest_gap_px, 2 * nearest_px);
     }
+}
+
+TEST(ContourLinks, join_neighbours_along_an_edge_and_nothing_across_a_gap) {
+    std::vector<Eigen::Vector2f> events;
+    std::vector<Eigen::Vector2f> points;
+    for (const float y : {0.0F, 6.0F}) {  // two parallel edges, the second with a hole
+        for (int i = 0; i <= 200; ++i) {
+            const float x = 0.2F * static_cast<float>(i);
+            if (y > 0 && x > 17 && x < 23) continue;
+            events.emplace_back(x, y + (i % 2 == 0 ? 0.2F : -0.2F));
+        }
+        for (int i = 0; i < 14; ++i) points.emplace_back(1 + 3.0F * static_cast<float>(i), y);
+    }
+    const auto links = contour_links(points, events);
+    for (const auto& link : links) {
+        EXPECT_EQ(link.to, link.from + 1);
+        EXPECT_EQ(points[link.from].y(), points[link.to].y());
+        const bool in_hole =
+            points[link.from].y() > 0 && points[link.to].x() > 18 && points[link.from].x() < 22;
+        EXPECT_FALSE(in_hole) << points[link.from].transpose();
+    }
+    EXPECT_GE(links.size(), 20U);
+}
+
+TEST(ContourLinks, join_nothing_in_a_tangle_or_without_events) {
+    std::mt19937 random(6);
+    std::vector<Eigen::Vector2f> events;
+    for (int i = 0; i < 20'000; ++i) {
+        events.emplace_back(static_cast<float>(random() % 4000) / 100,
+                            static_cast<float>(random() % 4000) / 100);
+    }
+    std::vector<Eigen::Vector2f> points;
+    for (int i = 0; i < 100; ++i) {
+        points.emplace_back(5 + 3.0F * static_cast<float>(i % 10),
+                            5 + 3.0F * static_cast<float>(i / 10));
+    }
+    EXPECT_TRUE(contour_links(points, events).empty());
+    EXPECT_TRUE(contour_links(points, {}).empty());
 }
 
 }  // namespace
