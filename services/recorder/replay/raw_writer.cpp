@@ -9,13 +9,22 @@ namespace pursuit::recorder {
 
 namespace rtps = eprosima::fastrtps::rtps;
 
+namespace {
+
+/// A replay as fast as possible waits for acknowledgements, which answer heartbeats: at the 20 ms
+/// of a live sensor it would send 32 packets in that time.
+constexpr std::uint32_t heartbeat_at_most_ms = 2;
+
+}  // namespace
+
 Result<std::unique_ptr<RawWriter>> RawWriter::create(Participant& participant,
                                                      const RawTopic& topic) {
     auto made = participant.topic(topic.name, topic.make_type());
     if (!made) return tl::unexpected(made.error());
     std::unique_ptr<RawWriter> self(new RawWriter(participant));
     self->writer_ = participant.publisher().create_datawriter(
-        *made, writer_qos(topic.flow, participant.heartbeat_ms()), self.get());
+        *made, writer_qos(topic.flow, std::min(participant.heartbeat_ms(), heartbeat_at_most_ms)),
+        self.get());
     if (self->writer_ == nullptr) return fail(std::string("cannot write the topic ") + topic.name);
     return self;
 }

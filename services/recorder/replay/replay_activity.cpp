@@ -19,6 +19,10 @@ constexpr std::int64_t hurried_ns = 5'000'000;
 /// A reader that has not acknowledged for so long is stuck; the others wait no longer for it.
 constexpr auto acknowledged_within = std::chrono::milliseconds(2000);
 
+/// A writer that knows of a reader may be ahead of the reader's knowing of the writer, and what is
+/// sent in between is lost (9 ms of it were seen on a busy host).
+constexpr std::int64_t settling_ns = 250'000'000;
+
 /// A packet is sent at most so long after its events; more is a clock that was set.
 constexpr std::int64_t most_host_lag_ns = 1'000'000'000;
 
@@ -161,12 +165,20 @@ bool ReplayActivity::wait_for_peers() {
     const auto events = channels_.find(topic::events);
     const auto leading = events == channels_.end() ? channels_.begin() : events;
     const auto wanted = static_cast<int>(configuration_.wait_for_subscribers());
+    std::optional<std::int64_t> there_since_ns;
     while (!pace_.stopped()) {
         const bool heard =
             leading == channels_.end() || leading->second.writer->matched() >= wanted;
         const bool served = plan_.call_count() == 0 || wanted == 0 ||
                             calls_->wait_matched(std::chrono::milliseconds(0));
-        if (heard && served) return true;
+        if (heard && served) {
+            const auto now_ns = clock_.steady_ns();
+            if (!there_since_ns) there_since_ns = now_ns;
+            if (wanted == 0 || now_ns - *there_since_ns >= settling_ns) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            continue;
+        }
+        there_since_ns.reset();
         say(v1::SERVICE_WAITING,
             heard ? std::string("waits for a tracker on ") + topic::tracker_request
                   : "waits for " + std::to_string(wanted) + " readers of " + leading->first +
