@@ -15,6 +15,12 @@ namespace {
 
 constexpr std::size_t most_writers = 4096;
 
+/// As the tracker reads, RELIABLE. Measured with 1000 packets of 16 kB a second and two busy loops
+/// on two cores: nothing lost, where BEST_EFFORT with the kernel's default socket buffer lost 10 of
+/// 5000 in one run of three. A recorder that is stopped for 1 s does not show in the tracker's
+/// latency either way (KEEP_LAST: the writer does not wait). What it costs: on a host that is
+/// overloaded for long (60 MB/s then), a reader that fell behind may hear nothing until the writer
+/// pauses; that is counted as lost.
 dds::DataReaderQos recording_qos(Flow flow) { return reader_qos(flow); }
 
 std::int64_t host_now_ns() {
