@@ -6,12 +6,22 @@
 #include <cmath>
 
 namespace pursuit::tracker {
+namespace {
+
+constexpr std::int64_t fold_us = 5'000;
+constexpr double far_memory_s = 0.5;
+constexpr double near_window_events = 10;
+
+}  // namespace
 
 void Clutter::restart() {
     far_events_ = {};
     near_events_ = own_events_ = events_ = 0;
-    density_ = {floor, floor};
+    density_ = standing_density_ = {floor, floor};
     own_share_ = 1;
+    new_far_ = far_hz_ = {};
+    near_count_ = near_time_us_ = slack_us_ = 0;
+    folded_us_ = fold_at_us_ = t_us_ = 0;
 }
 
 void Clutter::sample(const Contour& contour, const Eigen::Matrix2d& a) {
@@ -46,13 +56,38 @@ void Clutter::sample(const Contour& contour, const Eigen::Matrix2d& a) {
 
 void Clutter::count_far(double r_px) {
     ++far_events_[r_px > 0];
+    ++new_far_[r_px > 0];
     if (++events_ >= window_events) close_window();
 }
 
 void Clutter::count_near(double share) {
     own_events_ += share;
     ++near_events_;
+    if (++near_count_ > near_window_events) {
+        near_time_us_ *= near_window_events / near_count_;
+        near_count_ = near_window_events;
+    }
     if (++events_ >= window_events) close_window();
+}
+
+void Clutter::fold(std::int64_t t_us) {
+    const double dt_s = static_cast<double>(t_us - folded_us_) * 1e-6;
+    folded_us_ = t_us;
+    fold_at_us_ = t_us + fold_us;
+    const double far_kept = std::exp(-dt_s / far_memory_s);
+    const double near_hz = near_count_ / std::max(near_time_us_, 1.0) * 1e6;
+    slack_us_ = 2 * near_time_us_;
+    double clutter_hz = 0;
+    for (std::size_t side = 0; side < 2; ++side) {
+        far_hz_[side] = far_hz_[side] * far_kept + new_far_[side] / far_memory_s;
+        clutter_hz += far_hz_[side] / far_area_px2_[side] * near_width_px_[side] * near_px;
+    }
+    const double own_hz = std::max({near_hz - clutter_hz, 0.1 * near_hz, 1e-3});
+    for (std::size_t side = 0; side < 2; ++side) {
+        standing_density_[side] =
+            far_hz_[side] / far_area_px2_[side] * near_width_px_[side] / own_hz;
+    }
+    new_far_ = {};
 }
 
 void Clutter::close_window() {

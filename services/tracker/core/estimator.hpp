@@ -11,6 +11,18 @@
 
 namespace pursuit::tracker {
 
+/// How near an event is to an object.
+struct Approach {
+    double distance_px = std::numeric_limits<double>::infinity();  ///< Infinite beyond the gate.
+    double likelihood = 0;    ///< Of the event under the object, 1/px.
+    double clutter = 0;       ///< Density of events that are no object's, 1/px.
+    std::int32_t piece = -1;  ///< Of the contour; -1 where the estimator knows points alone.
+
+    [[nodiscard]] bool is_within() const {
+        return distance_px < std::numeric_limits<double>::infinity();
+    }
+};
+
 /// Moves one object's pose by its events. Both ideas, the paper's gradient and the filter, are one
 /// of these. approach() asks how near an event is; take() moves the pose by the event that was
 /// asked for last. Between the two nothing else is called.
@@ -22,19 +34,18 @@ class Estimator {
     virtual void restart(const Pose& pose, const Velocity& velocity) = 0;
     virtual void set_parameters(const ObjectParameters& parameters) = 0;
 
-    /// The event's distance to the model in the image, px; `beyond` outside the gate.
+    /// The event's distance to the model in the image.
     /// since_same_us: since the last event of the same pixel and polarity.
-    virtual double approach(const Event& event, std::int64_t since_same_us) = 0;
+    virtual Approach approach(const Event& event, std::int64_t since_same_us) = 0;
 
     /// Uses the event with a weight 0 … 1; false where it came to nothing.
     virtual bool take(double weight) = 0;
 
     [[nodiscard]] virtual const Pose& pose() const = 0;
+    [[nodiscard]] virtual Velocity velocity() const = 0;
 
     /// Fills in pose, velocity, covariances, residual and rate at a time after the last event.
     virtual void describe(std::int64_t t_us, PoseRecord& record) const = 0;
-
-    static constexpr double beyond = std::numeric_limits<double>::infinity();
 };
 
 std::unique_ptr<Estimator> make_estimator(EstimatorKind kind, TransformKind transform,

@@ -8,8 +8,8 @@
 namespace pursuit::tracker {
 
 GradientEstimator::GradientEstimator(TransformKind transform, const Shape& shape,
-                                     const ObjectParameters& parameters)
-    : transform_(transform), contour_(shape), parameters_(parameters) {
+                                     const ObjectParameters& parameters, Pull pull)
+    : transform_(transform), pull_(pull), contour_(shape), parameters_(parameters) {
     restart({}, {});
 }
 
@@ -25,18 +25,23 @@ void GradientEstimator::set_parameters(const ObjectParameters& parameters) {
     parameters_ = parameters;
 }
 
-double GradientEstimator::approach(const Event& event, std::int64_t) {
+Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     contour_.fit(pose_.a, parameters_.gate_px);
     q_ = Eigen::Vector2d(event.x, event.y) - pose_.t_px;
     const Eigen::Vector2d x = pose_.a.inverse() * q_;
-    const auto nearest = contour_.points().nearest(x.x(), x.y(), ImageMetric(pose_.a));
-    if (nearest.piece < 0) return beyond;
+    const ImageMetric metric(pose_.a);
+    const CandidateGrid& grid = pull_ == Pull::point ? contour_.points() : contour_.pieces();
+    const auto nearest = grid.nearest(x.x(), x.y(), metric);
+    if (nearest.piece < 0) return {};
     distance_px_ = std::sqrt(nearest.squared_px);
-    if (distance_px_ > parameters_.gate_px) return beyond;
-    const Piece& point = contour_.points().pieces()[static_cast<std::size_t>(nearest.piece)];
-    m_ << point.ax, point.ay;
+    if (distance_px_ > parameters_.gate_px) return {};
+    const Piece& piece = grid.pieces()[static_cast<std::size_t>(nearest.piece)];
+    const double foot = piece.foot(x.x(), x.y(), metric);
+    m_ << piece.ax + foot * (piece.bx - piece.ax), piece.ay + foot * (piece.by - piece.ay);
     t_us_ = event.t_us;
-    return distance_px_;
+    // As of events scattered by a pixel, beside a little clutter.
+    return {distance_px_, 0.4 * std::exp(-0.5 * distance_px_ * distance_px_), 0.02,
+            pull_ == Pull::contour ? nearest.piece : -1};
 }
 
 bool GradientEstimator::take(double weight) {
@@ -58,10 +63,14 @@ bool GradientEstimator::take(double weight) {
     return true;
 }
 
+Velocity GradientEstimator::velocity() const {
+    const auto slope = slope_.per_s();
+    return {slope(0), slope(1), slope(2), slope(3), slope(4)};
+}
+
 void GradientEstimator::describe(std::int64_t, PoseRecord& record) const {
     record.pose = pose_;
-    const auto slope = slope_.per_s();
-    record.velocity = {slope(0), slope(1), slope(2), slope(3), slope(4)};
+    record.velocity = velocity();
     record.pose_covariance.fill(std::nan(""));
     record.velocity_covariance.fill(std::nan(""));
     record.mean_residual_px = static_cast<float>(residual_px_);

@@ -12,18 +12,23 @@ namespace pursuit::tracker {
 /// velocity is the slope of the last 20 ms or so.
 class GradientEstimator : public Estimator {
  public:
+    /// Where the event pulls: the paper's nearest model point, or the nearest place of the contour.
+    enum class Pull { point, contour };
+
     GradientEstimator(TransformKind transform, const Shape& shape,
-                      const ObjectParameters& parameters);
+                      const ObjectParameters& parameters, Pull pull = Pull::point);
 
     void restart(const Pose& pose, const Velocity& velocity) override;
     void set_parameters(const ObjectParameters& parameters) override;
-    double approach(const Event& event, std::int64_t since_same_us) override;
+    Approach approach(const Event& event, std::int64_t since_same_us) override;
     bool take(double weight) override;
     [[nodiscard]] const Pose& pose() const override { return pose_; }
+    [[nodiscard]] Velocity velocity() const override;
     void describe(std::int64_t t_us, PoseRecord& record) const override;
 
  private:
     TransformKind transform_;
+    Pull pull_;
     Contour contour_;
     ObjectParameters parameters_;
     Pose pose_;

@@ -11,7 +11,7 @@ namespace {
 // Of the measurement.
 constexpr double first_noise_px = 0.4;       // σ of a pixel's first event of an edge
 constexpr double subsequent_noise_px = 0.6;  // σ of those that follow
-constexpr double tail_noise_px = 1.5;        // σ added for the events that stray
+constexpr double tail_px2 = 1.5 * 1.5;       // variance added for the events that stray
 constexpr double tail_share = 0.2;
 constexpr double overshoot_px = 1;  // past a piece's end
 constexpr double least_share = 0.05;
@@ -97,7 +97,9 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     if constexpr (kind == TransformKind::similarity) noise(3) *= 0.2 * 0.2;
     if constexpr (kind == TransformKind::paper_affine) noise.template tail<2>() *= 0.7 * 0.7;
     if constexpr (kind == TransformKind::full_affine) noise.template tail<4>() *= 0.7 * 0.7;
-    filter_.predict(dt_s, noise);
+    const double told_to_move_s =
+        own_px_s > 0 ? silent_events / (clock_.events_per_px(length_px) * own_px_s) : dt_s;
+    filter_.predict(dt_s, std::min(dt_s, told_to_move_s), noise);
 
     // Silence means standing still.
     if (own_px_s > 0 && told_px_s < 0.6 * own_px_s) {
@@ -121,7 +123,7 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
 }
 
 template <TransformKind kind>
-double KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_same_us) {
+Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_same_us) {
     predict_to(event.t_us);
     const Pose& pose = filter_.pose();
     const double area = pose.a(0, 0) * pose.a(1, 1) - pose.a(0, 1) * pose.a(1, 0);
@@ -130,14 +132,15 @@ double KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_sa
         clutter_.sample(contour_, pose.a);
         sampled_for_area_ = area;
     }
+    clutter_.reach(event.t_us);
     const ImageMetric metric(pose.a);
     const Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - pose.t_px;
     const Eigen::Vector2d x((pose.a(1, 1) * q.x() - pose.a(0, 1) * q.y()) / area,
                             (pose.a(0, 0) * q.y() - pose.a(1, 0) * q.x()) / area);
     const auto nearest = contour_.pieces().nearest(x.x(), x.y(), metric);
-    if (nearest.piece < 0) return beyond;
+    if (nearest.piece < 0) return {};
     const double distance_px = std::sqrt(nearest.squared_px);
-    if (distance_px > Clutter::far_to_px) return beyond;
+    if (distance_px > Clutter::far_to_px) return {};
 
     const Piece& piece = contour_.pieces().pieces()[static_cast<std::size_t>(nearest.piece)];
     const double foot = piece.foot(x.x(), x.y(), metric);
@@ -158,7 +161,7 @@ double KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_sa
     }
     const double r0_px = n.dot(off);
     const double past_end2 = nearest.squared_px - r0_px * r0_px;
-    if (past_end2 > overshoot_px * overshoot_px) return beyond;
+    if (past_end2 > overshoot_px * overshoot_px) return {};
 
     const Step j = M::along(n, d, pose.a, m);
     const double normal_px_s = j.dot(filter_.twist());
@@ -169,34 +172,34 @@ double KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_sa
     if (std::abs(r_px) > Clutter::far_from_px && std::abs(r_px) < Clutter::far_to_px) {
         clutter_.count_far(r_px);
     }
-    if (std::abs(r_px) > parameters_.gate_px) return beyond;
+    if (std::abs(r_px) > parameters_.gate_px) return {};
     measured_.row = filter_.row(j, lead, h);
     measured_.r_px = r_px;
-    measured_.h = h;
     const double sigma_px = subsequent ? subsequent_noise_px : first_noise_px;
     measured_.noise_px2 = sigma_px * sigma_px * noise_gain_;
-    measured_.t_us = event.t_us;
-    return distance_px;
+
+    const double near_variance = measured_.row.h_p_h + measured_.noise_px2;
+    measured_.near_likelihood = (1 - tail_share) * normal_density(r_px, near_variance);
+    measured_.far_likelihood = tail_share * normal_density(r_px, near_variance + tail_px2);
+    return {std::abs(r_px), measured_.near_likelihood + measured_.far_likelihood,
+            clutter_.density(r_px), nearest.piece};
 }
 
 template <TransformKind kind>
 bool KalmanEstimator<kind>::take(double weight) {
     const double r = measured_.r_px;
-    const double near_noise = measured_.noise_px2;
-    const double far_noise = near_noise + tail_noise_px * tail_noise_px;
-    const double near_variance = measured_.row.h_p_h + near_noise;
-    const double far_variance = measured_.row.h_p_h + far_noise;
-    const double near_likelihood = (1 - tail_share) * normal_density(r, near_variance);
-    const double far_likelihood = tail_share * normal_density(r, far_variance);
-    const double likelihood = near_likelihood + far_likelihood;
+    const double likelihood = measured_.near_likelihood + measured_.far_likelihood;
     const double share = weight * likelihood / (likelihood + clutter_.density(r));
     clutter_.count_near(share);
     if (share < least_share) return false;
 
-    const double noise = likelihood / (near_likelihood / near_noise + far_likelihood / far_noise);
+    // The mean of both kinds' information.
+    const double near_noise = measured_.noise_px2;
+    const double noise = likelihood / (measured_.near_likelihood / near_noise +
+                                       measured_.far_likelihood / (near_noise + tail_px2));
     filter_.correct(measured_.row, r, measured_.row.h_p_h + noise, share);
     filter_.limit_leads(least_lead_px, most_lead_px);
-    const double surprise = std::min(r * r / near_variance, 9.0) / 1.3 - 1;
+    const double surprise = std::min(r * r / (measured_.row.h_p_h + near_noise), 9.0) / 1.3 - 1;
     noise_gain_ = std::clamp(noise_gain_ * (1 + 0.001 * share * surprise), 0.7, 4.0);
     residual_px_ += 0.01 * share * (std::abs(r) - residual_px_);
 

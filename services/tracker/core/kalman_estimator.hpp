@@ -18,9 +18,12 @@ class KalmanEstimator : public Estimator {
 
     void restart(const Pose& pose, const Velocity& velocity) override;
     void set_parameters(const ObjectParameters& parameters) override;
-    double approach(const Event& event, std::int64_t since_same_us) override;
+    Approach approach(const Event& event, std::int64_t since_same_us) override;
     bool take(double weight) override;
     [[nodiscard]] const Pose& pose() const override { return filter_.pose(); }
+    [[nodiscard]] Velocity velocity() const override {
+        return M::velocity(filter_.twist(), filter_.pose().a);
+    }
     void describe(std::int64_t t_us, PoseRecord& record) const override;
 
  private:
@@ -36,9 +39,9 @@ class KalmanEstimator : public Estimator {
     struct Measurement {
         typename Filter::Row row;
         double r_px;
-        double h;
         double noise_px2;
-        std::int64_t t_us;
+        double near_likelihood;
+        double far_likelihood;
     };
 
     Contour contour_;

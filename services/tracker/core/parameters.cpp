@@ -34,6 +34,8 @@ constexpr std::array strategy_table{
     Parameter<StrategyParameters>{
         "ambiguity_px", &StrategyParameters::ambiguity_px, 0, 50, "px",
         "an event this near to two objects or more is given by the strategy"},
+    Parameter<StrategyParameters>{"temporal_events", &StrategyParameters::temporal_events, 2, 10000,
+                                  "events", "N of (3.12): events that an object's rate is over"},
 };
 
 std::string shown(double value) {

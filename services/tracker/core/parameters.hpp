@@ -40,6 +40,7 @@ struct TrackerParameters {
 /// The constants of the occlusion strategies.
 struct StrategyParameters {
     double ambiguity_px = 3;
+    double temporal_events = 50;
 
     friend bool operator==(const StrategyParameters&, const StrategyParameters&) = default;
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include "services/tracker/core/association/strategy.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
@@ -43,7 +45,7 @@ CallResult<void> check_supported(EstimatorKind estimator) {
 }
 
 CallResult<void> check_supported(StrategyKind strategy) {
-    if (strategy == StrategyKind::closest) return {};
+    if (is_supported(strategy)) return {};
     return refuse(CallStatus::unsupported, "strategy: " + std::string(to_string(strategy)) +
                                                " is not built into this version");
 }

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <iterator>
 
+#include "services/tracker/core/association/by_distance.hpp"
+#include "services/tracker/core/association/strategy.hpp"
 #include "services/tracker/core/pose_grid.hpp"
 #include "services/tracker/core/recent_pixels.hpp"
 #include "services/tracker/core/registry.hpp"
@@ -30,7 +33,12 @@ class Tracker::Impl {
     Impl(TrackerOptions given, const Preset& preset)
         : options(std::move(given)),
           registry(options.max_objects, options.next_object_id, preset),
-          grid(options.pose_rate_hz, options.max_poses_per_s) {}
+          grid(options.pose_rate_hz, options.max_poses_per_s) {
+        set_strategy(preset.strategy, preset.strategy_parameters);
+        claims.reserve(options.max_objects);
+        ambiguous.reserve(options.max_objects);
+        claimants.reserve(options.max_objects);
+    }
 
     /// A call's effect on the tracks, held back until the last processed time is over.
     struct Change {
@@ -85,24 +93,62 @@ class Tracker::Impl {
         return true;
     }
 
+    // The paper's algorithm, for one event.
     void process(const Event& event, PoseSink& sink) {
         const std::int64_t since_same_us = recent.note(event);
-        Track* closest = nullptr;
-        double closest_px = Estimator::beyond;
+
+        // The objects it may belong to, by the nearest place of each model (3.1).
+        claims.clear();
+        claimants.clear();
         for (Track& track : tracks) {
-            const double distance_px = track.approach(event, since_same_us);
-            if (distance_px >= closest_px) continue;
-            closest = &track;
-            closest_px = distance_px;
+            const Approach near = track.approach(event, since_same_us);
+            if (!near.is_within()) continue;
+            claims.push_back({track.object_id(), near.distance_px, near.likelihood, near.clutter});
+            claimants.push_back(&track);
         }
-        if (closest == nullptr || !closest->take(event, 1)) {
-            ++counters.events_unused;
+
+        // Whose it is (section 3.3), and the steps that follow from it (3.2).
+        give(event);
+        bool is_used = false;
+        for (std::size_t i = 0; i < claims.size(); ++i) {
+            if (!(claims[i].weight > 0) || !claimants[i]->take(event, claims[i].weight)) continue;
+            is_used = true;
+            strategy->used(event, claims[i]);
+            if (options.emit_updates) {
+                sink.update({claims[i].object_id, stream_id, event.t_us, claimants[i]->pose()});
+            }
+        }
+        ++(is_used ? counters.events_used : counters.events_unused);
+    }
+
+    // Sets the weights of the claims: an event that is ambiguous, near two objects or more, is the
+    // strategy's to give, any other the closest object's.
+    void give(const Event& event) {
+        if (claims.size() < 2) {
+            if (!claims.empty()) claims[0].weight = 1;
             return;
         }
-        ++counters.events_used;
-        if (options.emit_updates) {
-            sink.update({closest->object_id(), stream_id, event.t_us, closest->pose()});
+        const double near_px = ambiguity_px;
+        const auto is_near = [&](const Claim& claim) { return claim.distance_px <= near_px; };
+        const auto near_count = std::count_if(claims.begin(), claims.end(), is_near);
+        if (near_count < 2) {
+            Closest().assign(event, claims);
+            return;
         }
+        if (static_cast<std::size_t>(near_count) == claims.size()) {
+            strategy->assign(event, claims);
+            return;
+        }
+        ambiguous.clear();
+        std::copy_if(claims.begin(), claims.end(), std::back_inserter(ambiguous), is_near);
+        strategy->assign(event, ambiguous);
+        auto next = ambiguous.begin();
+        for (Claim& claim : claims) claim.weight = is_near(claim) ? (next++)->weight : 0;
+    }
+
+    void set_strategy(StrategyKind kind, const StrategyParameters& parameters) {
+        strategy = make_strategy(kind, parameters);
+        ambiguity_px = parameters.ambiguity_px;
     }
 
     Track* find_track(std::uint32_t object_id) {
@@ -121,7 +167,14 @@ class Tracker::Impl {
     std::int64_t last_t_us = -1;
     std::deque<Change> changes;
     RecentPixels recent;
+    std::unique_ptr<Strategy> strategy;
+    double ambiguity_px = 3;
     std::vector<Track> tracks;  // in order of ids
+
+    // Of the event in hand; kept to allocate nothing an event.
+    std::vector<Claim> claims;
+    std::vector<Claim> ambiguous;
+    std::vector<Track*> claimants;
 };
 
 CallResult<Tracker> Tracker::create(const TrackerOptions& options) {
@@ -177,11 +230,12 @@ std::int64_t Tracker::effective_time_us() const { return impl_->effective_time_u
 CallResult<Registered> Tracker::register_object(const Registration& registration) {
     auto registered = impl_->registry.add(registration, effective_time_us());
     if (!registered || registered->already_registered) return registered;
-    impl_->hold([impl = impl_.get(), object = *impl_->registry.find(registered->object_id)] {
+    impl_->hold([impl = impl_.get(), object = *impl_->registry.find(registered->object_id),
+                 tracker = impl_->registry.settings().tracker] {
         const auto place =
             std::find_if(impl->tracks.begin(), impl->tracks.end(),
                          [&](const Track& track) { return track.object_id() > object.object_id; });
-        impl->tracks.insert(place, Track(object));
+        impl->tracks.insert(place, Track(object, tracker));
     });
     return registered;
 }
@@ -215,17 +269,23 @@ CallResult<void> Tracker::set_pose(std::string_view name, const Start& start) {
 }
 
 CallResult<void> Tracker::set_strategy(StrategyKind kind, std::span<const NamedValue> parameters) {
-    return impl_->registry.set_strategy(kind, parameters, effective_time_us());
+    auto changed = impl_->registry.set_strategy(kind, parameters, effective_time_us());
+    if (!changed) return changed;
+    impl_->hold([impl = impl_.get(), settings = impl_->registry.settings()] {
+        impl->set_strategy(settings.strategy, settings.strategy_parameters);
+    });
+    return {};
 }
 
 CallResult<void> Tracker::set_parameters(std::string_view name,
                                          std::span<const NamedValue> parameters) {
     auto changed = impl_->registry.set_parameters(name, parameters, effective_time_us());
     if (!changed) return changed;
-    impl_->hold([impl = impl_.get(), objects = impl_->registry.objects()] {
+    impl_->hold([impl = impl_.get(), objects = impl_->registry.objects(),
+                 tracker = impl_->registry.settings().tracker] {
         for (const RegisteredObject& object : objects) {
             if (Track* track = impl->find_track(object.object_id)) {
-                track->set_parameters(object.parameters);
+                track->set_parameters(object.parameters, tracker);
             }
         }
     });

@@ -39,9 +39,10 @@ class TwistFilter {
         covariance_.diagonal().template tail<leads>().setConstant(sigma_px * sigma_px);
     }
 
-    /// dt_s later; noise: the spectral density of the twist's random walk, a component each.
-    void predict(double dt_s, const Step& noise) {
-        move(dt_s, pose_, twist_);
+    /// dt_s later, of which it moved for moving_s; noise: the spectral density of the twist's
+    /// random walk, a component each.
+    void predict(double dt_s, double moving_s, const Step& noise) {
+        move(moving_s, pose_, twist_);
         auto pp = covariance_.template topLeftCorner<dof, dof>();
         auto pv = covariance_.template block<dof, dof>(0, dof);
         auto vp = covariance_.template block<dof, dof>(dof, 0);

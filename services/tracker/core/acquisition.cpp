@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/acquisition.hpp"
+
+#include <algorithm>
+
+namespace pursuit::tracker {
+namespace {
+
+constexpr double widest_gate_px = 30;
+constexpr double narrowest_gate_px = 4;
+constexpr double gate_per_residual = 3;
+
+// Coarser than for tracking: what counts is to arrive.
+ObjectParameters arriving(ObjectParameters parameters) {
+    parameters.gate_px = widest_gate_px;
+    parameters.gradient_position_gain = 0.03;
+    parameters.gradient_angle_gain_rad_px2 = 5e-5;
+    parameters.gradient_scale_gain_1_px = 1e-4;
+    parameters.gradient_affine_gain_1_px2 = 2e-5;
+    return parameters;
+}
+
+}  // namespace
+
+Acquisition::Acquisition(const RegisteredObject& object)
+    : parameters_(arriving(object.parameters)),
+      estimator_(object.transform, object.shape, parameters_, GradientEstimator::Pull::contour),
+      cover_(Contour(object.shape)) {}
+
+void Acquisition::begin(const Pose& pose) {
+    estimator_.restart(pose, {});
+    health_.restart();
+    cover_.restart();
+    residual_px_ = widest_gate_px / gate_per_residual;
+    set_gate(widest_gate_px);
+}
+
+void Acquisition::set_gate(double gate_px) {
+    parameters_.gate_px = gate_px;
+    estimator_.set_parameters(parameters_);
+}
+
+Approach Acquisition::approach(const Event& event) {
+    const Approach near = estimator_.approach(event, 0);
+    distance_px_ = near.distance_px;
+    piece_ = near.piece;
+    t_us_ = event.t_us;
+    return near;
+}
+
+void Acquisition::take() {
+    estimator_.take(1);
+    if (distance_px_ < narrowest_gate_px) {
+        health_.count(distance_px_, narrowest_gate_px, t_us_);
+        if (distance_px_ < narrowest_gate_px / 4) {
+            cover_.count(piece_, estimator_.pose(), velocity());
+        }
+    }
+    residual_px_ += 0.01 * (distance_px_ - residual_px_);
+    set_gate(std::clamp(gate_per_residual * residual_px_, narrowest_gate_px, widest_gate_px));
+}
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "services/tracker/core/cover.hpp"
+#include "services/tracker/core/gradient_estimator.hpp"
+#include "services/tracker/core/health.hpp"
+
+namespace pursuit::tracker {
+
+/// Finds an object near a pose that is many pixels off: the descent with a gate as wide as its
+/// residuals are large, pulling along the whole contour. Done when what comes lies on the contour.
+class Acquisition {
+ public:
+    Acquisition(const RegisteredObject& object);
+
+    void begin(const Pose& pose);
+
+    Approach approach(const Event& event);
+    /// Uses the event that approach() was asked for last.
+    void take();
+
+    /// The events lie on the contour: the pose can be trusted to a pixel or so.
+    [[nodiscard]] bool is_done() const {
+        return health_.is_settled() && health_.is_good() && cover_.share() > Health::good_cover;
+    }
+    [[nodiscard]] const Pose& pose() const { return estimator_.pose(); }
+    [[nodiscard]] Velocity velocity() const { return estimator_.velocity(); }
+
+ private:
+    void set_gate(double gate_px);
+
+    ObjectParameters parameters_;
+    GradientEstimator estimator_;
+    Cover cover_;
+    Health health_;
+    std::int32_t piece_ = -1;
+    std::int64_t t_us_ = 0;
+    double distance_px_ = 0;
+    double residual_px_ = 0;
+};
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "services/tracker/core/contour.hpp"
+#include "services/tracker/core/pose.hpp"
+
+namespace pursuit::tracker {
+
+/// How much of a contour its events come from. Each part of a moving contour makes events as fast
+/// as it moves across itself; a pose that fits only a part of what is there leaves other parts
+/// without the events that they should make.
+class Cover {
+ public:
+    explicit Cover(const Contour& contour);
+
+    void restart();
+
+    /// An event on this piece of the contour, under this pose and velocity.
+    void count(std::int32_t piece, const Pose& pose, const Velocity& velocity);
+
+    /// The share of the expected events whose parts of the contour got a quarter or more of theirs,
+    /// 0 … 1; over the last few hundred events.
+    [[nodiscard]] double share() const { return share_; }
+
+ private:
+    void close_window(const Pose& pose, const Velocity& velocity);
+
+    static constexpr std::size_t sectors = 20;
+    static constexpr int window_events = 50;
+
+    struct Part {
+        std::size_t sector = 0;
+        Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();  // model frame
+        Eigen::Vector2d along_px = Eigen::Vector2d::Zero();
+    };
+    std::vector<Part> parts_;  // a piece each
+    std::array<double, sectors> counted_{};
+    std::array<double, sectors> expected_{};
+    int events_ = 0;
+    double share_ = 1;
+};
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace pursuit::tracker {
+
+/// Whether the events near a track fit its pose. Events of the object lie on the contour; what else
+/// comes lies anywhere in the gate: the share within a quarter of the gate tells them apart, a
+/// quarter meaning nothing fits. A running mean over the last events.
+///
+/// An object that stands still makes no events, and the noise that is left says nothing about its
+/// pose: while events come at less than a quarter of the object's own rate, it is quiet, and what
+/// comes counts only if it fits.
+class Health {
+ public:
+    void restart(double sharpness = begin) { *this = Health(sharpness); }
+
+    Health() = default;
+
+    /// An event at this distance, of those within the gate.
+    void count(double distance_px, double gate_px, std::int64_t t_us) {
+        if (events_ > 0) {
+            const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
+            recent_ *= std::exp(-dt_s / memory_s);
+            // While it fits, the rate is the object's own.
+            if (!is_quiet_ && is_good()) {
+                own_rate_ += (recent_ - own_rate_) * std::min(1.0, dt_s / own_memory_s);
+            }
+        }
+        t_us_ = t_us;
+        recent_ += 1;
+        events_ = std::min(events_ + 1, window_events);
+        const double is_sharp = distance_px < gate_px / 4 ? 1 : 0;
+        is_quiet_ = recent_ < own_rate_ / 4;
+        if (!is_quiet_) {
+            sharpness_ += (is_sharp - sharpness_) / window_events;
+            quiet_sharpness_ = nothing_fits;
+            lively_t_us_ = t_us;
+            return;
+        }
+        quiet_sharpness_ += (is_sharp - quiet_sharpness_) / window_events;
+        if (quiet_sharpness_ > good) own_rate_ = recent_;  // It moves, only slower.
+    }
+
+    [[nodiscard]] double sharpness() const { return sharpness_; }
+    /// Whether enough events came since the restart to tell.
+    [[nodiscard]] bool is_settled() const { return events_ >= window_events; }
+    /// Whether the last event came in a quiet time.
+    [[nodiscard]] bool is_quiet() const { return is_quiet_; }
+    /// The last event that did not.
+    [[nodiscard]] std::int64_t lively_t_us() const { return lively_t_us_; }
+
+    /// Between the two nothing changes: a track is not given up and taken up by turns.
+    [[nodiscard]] bool is_good() const { return sharpness_ > good; }
+    [[nodiscard]] bool is_bad() const { return sharpness_ < bad; }
+
+    static constexpr double begin = 0.5;
+    static constexpr double good = 0.55;
+    static constexpr double bad = 0.42;
+    static constexpr double good_cover = 0.65;
+    static constexpr double bad_cover = 0.5;
+
+ private:
+    explicit Health(double sharpness) : sharpness_(sharpness) {}
+
+    static constexpr double nothing_fits = 0.25;
+    static constexpr double window_events = 100;
+    static constexpr double memory_s = 0.05;
+    static constexpr double own_memory_s = 0.5;
+
+    double sharpness_ = begin;
+    double quiet_sharpness_ = nothing_fits;
+    double events_ = 0;
+    double recent_ = 0;    // events of the last 50 ms, fading
+    double own_rate_ = 0;  // the same while the events fitted
+    bool is_quiet_ = false;
+    std::int64_t t_us_ = 0;
+    std::int64_t lively_t_us_ = 0;
+};
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "services/tracker/core/clutter.hpp"
+#include "services/tracker/core/cover.hpp"
+#include "services/tracker/core/health.hpp"
+#include "services/tracker/core/tracker.hpp"
+#include "tests/unit/tracker/core/scene.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+using test::arrow;
+using test::outline_events;
+using test::Poses;
+using test::rms_px;
+
+constexpr Geometry geometry{304, 240};
+
+Pose swinging(double t_us) {
+    const double t_s = t_us * 1e-6;
+    return pose_of(150 + 60 * std::sin(3 * t_s), 110 + 30 * std::sin(4 * t_s),
+                   0.6 * std::sin(2.5 * t_s));
+}
+
+Tracker with_arrow(const Pose& start) {
+    Tracker tracker = std::move(*Tracker::create({}));
+    tracker.begin_stream(geometry, 1);
+    Registration registration;
+    registration.shape = arrow();
+    registration.estimator = EstimatorKind::kalman;
+    registration.start.pose = start;
+    EXPECT_TRUE(tracker.register_object(registration));
+    return tracker;
+}
+
+const PoseRecord& last(const Poses& poses) { return poses.rows.back().record; }
+
+TEST(Life, of_a_still_object_stays_tracking_with_falling_confidence) {
+    const auto truth = [](double t_us) { return swinging(std::min(t_us, 500'000.0)); };
+    auto events = outline_events(arrow(), truth, 0, 500'000, 60, 5, geometry, 1);
+    const auto noise = outline_events(arrow(), truth, 500'000, 3'000'000, 0, 5, geometry, 2);
+    events.insert(events.end(), noise.begin(), noise.end());
+    Tracker tracker = with_arrow(truth(0));
+    Poses poses;
+    tracker.process(events, poses);
+    tracker.advance(6'000'000, poses);
+    for (const auto& row : poses.rows) {
+        ASSERT_EQ(row.record.state, TrackState::tracking) << row.record.t_us;
+    }
+    // Noise beside the contour pulls at it while nothing else comes; it must not carry it off.
+    EXPECT_LT(rms_px(arrow(), last(poses).pose, truth(1e6)), 5);
+    EXPECT_LT(last(poses).confidence, 0.5F);
+}
+
+TEST(Life, finds_an_object_that_starts_pixels_away) {
+    for (const double off_px : {3.0, 8.0, 14.0}) {
+        for (const double direction : {0.0, 1.6, 3.1, 4.7}) {
+            Pose start = swinging(0);
+            start.t_px += off_px * Eigen::Vector2d(std::cos(direction), std::sin(direction));
+            Tracker tracker = with_arrow(start);
+            Poses poses;
+            tracker.process(outline_events(arrow(), swinging, 0, 1'000'000, 60, 5, geometry, 3),
+                            poses);
+            EXPECT_EQ(last(poses).state, TrackState::tracking) << off_px << " " << direction;
+            EXPECT_LT(rms_px(arrow(), last(poses).pose, swinging(1e6)), 1)
+                << off_px << " " << direction;
+        }
+    }
+}
+
+TEST(Life, never_says_confidently_that_another_shape_is_the_object) {
+    const Shape box = test::polygon("box", {{-22, -22}, {22, -22}, {22, 22}, {-22, 22}});
+    Tracker tracker = with_arrow(swinging(0));
+    Poses poses;
+    tracker.process(outline_events(box, swinging, 0, 2'000'000, 60, 5, geometry, 4), poses);
+    int confident = 0;
+    for (const auto& row : poses.rows) {
+        confident += row.record.state == TrackState::tracking && row.record.confidence > 0.5F;
+    }
+    EXPECT_LT(confident, 100);
+    EXPECT_EQ(last(poses).state, TrackState::lost);
+}
+
+TEST(Life, lets_go_within_100_ms_of_an_object_that_is_replaced) {
+    const Shape box = test::polygon("box", {{-22, -22}, {22, -22}, {22, 22}, {-22, 22}});
+    auto events = outline_events(arrow(), swinging, 0, 800'000, 60, 5, geometry, 5);
+    const auto other = outline_events(box, swinging, 800'000, 2'500'000, 60, 5, geometry, 6);
+    events.insert(events.end(), other.begin(), other.end());
+    Tracker tracker = with_arrow(swinging(0));
+    Poses poses;
+    tracker.process(events, poses);
+    for (const auto& row : poses.rows) {
+        if (row.record.t_us < 200'000) continue;
+        if (row.record.t_us < 800'000) {
+            ASSERT_EQ(row.record.state, TrackState::tracking) << row.record.t_us;
+        } else if (row.record.t_us > 900'000 && row.record.t_us < 1'000'000) {
+            ASSERT_FALSE(row.record.state == TrackState::tracking && row.record.confidence > 0.5F)
+                << row.record.t_us;
+        }
+    }
+    EXPECT_EQ(last(poses).state, TrackState::lost);
+}
+
+TEST(Life, goes_on_after_a_gap_in_the_stream) {
+    for (const std::int64_t gap_us : {5'000, 40'000, 90'000}) {
+        auto events = outline_events(arrow(), swinging, 0, 700'000, 60, 5, geometry, 7);
+        const auto after =
+            outline_events(arrow(), swinging, 700'000 + gap_us, 1'500'000, 60, 5, geometry, 8);
+        events.insert(events.end(), after.begin(), after.end());
+        Tracker tracker = with_arrow(swinging(0));
+        Poses poses;
+        tracker.process(events, poses);
+        EXPECT_EQ(last(poses).state, TrackState::tracking) << gap_us;
+        EXPECT_LT(rms_px(arrow(), last(poses).pose, swinging(1.5e6)), 1) << gap_us;
+    }
+}
+
+TEST(Life, finds_its_object_again_in_a_new_stream_around_the_last_pose) {
+    Tracker tracker = with_arrow(swinging(0));
+    Poses poses;
+    tracker.process(outline_events(arrow(), swinging, 0, 600'000, 60, 5, geometry, 9), poses);
+    ASSERT_EQ(last(poses).state, TrackState::tracking);
+    ASSERT_TRUE(tracker.snapshots()[0].was_tracked);
+    EXPECT_LT(rms_px(arrow(), tracker.snapshots()[0].pose, swinging(6e5)), 2);
+    tracker.begin_stream(geometry, 2);
+    Poses again;
+    const auto later = [](double t_us) { return swinging(t_us + 620'000); };
+    tracker.process(outline_events(arrow(), later, 0, 500'000, 60, 5, geometry, 10), again);
+    ASSERT_FALSE(again.rows.empty());
+    EXPECT_EQ(again.rows.front().record.state, TrackState::occluded);
+    EXPECT_EQ(last(again).state, TrackState::tracking);
+    EXPECT_LT(rms_px(arrow(), last(again).pose, later(5e5)), 1);
+}
+
+TEST(Health, tells_events_on_the_contour_from_events_anywhere) {
+    std::mt19937 random(1);
+    Health on_it;
+    Health anywhere;
+    for (int i = 0; i < 1000; ++i) {
+        const double uniform = static_cast<double>(random()) / 4294967296.0;
+        on_it.count(1.2 * uniform, 4, i);
+        anywhere.count(4 * uniform, 4, i);
+    }
+    EXPECT_TRUE(on_it.is_settled());
+    EXPECT_TRUE(on_it.is_good());
+    EXPECT_TRUE(anywhere.is_bad());
+}
+
+TEST(Cover, is_whole_where_all_of_a_moving_contour_makes_events) {
+    const Contour contour(arrow());
+    Cover cover(contour);
+    const Velocity right{100, 0, 0, 0, 0};
+    const auto& pieces = contour.pieces().pieces();
+    const auto make_events = [&](bool front_alone) {
+        for (int round = 0; round < 60; ++round) {
+            for (std::size_t i = 0; i < pieces.size(); ++i) {
+                const bool faces = std::abs(pieces[i].by - pieces[i].ay) > 0.3;
+                if (!faces || (front_alone && pieces[i].ax < 0)) continue;
+                cover.count(static_cast<std::int32_t>(i), {}, right);
+            }
+        }
+    };
+    make_events(false);
+    EXPECT_GT(cover.share(), 0.8);
+    cover.restart();
+    for (int round = 0; round < 2000; ++round) cover.count(0, {}, right);
+    EXPECT_LT(cover.share(), 0.3);
+}
+
+TEST(Clutter, is_near_nothing_for_an_object_alone_and_high_in_noise) {
+    Contour contour(arrow());
+    contour.fit(Eigen::Matrix2d::Identity(), 8);
+    Clutter clutter;
+    clutter.restart();
+    clutter.sample(contour, Eigen::Matrix2d::Identity());
+    for (int i = 0; i < 3000; ++i) clutter.count_near(1);
+    EXPECT_LT(clutter.density(1), 0.01);
+    EXPECT_GT(clutter.own_share(), 0.95);
+    // As many beside the contour, over 2 × 3 px, as on it, over 2 × 4: most on it is clutter too.
+    for (int i = 0; i < 6000; ++i) {
+        clutter.count_near(0.3);
+        clutter.count_far(i % 2 == 0 ? 5 : -5);
+    }
+    EXPECT_GT(clutter.density(1), 0.2);
+    EXPECT_LT(clutter.own_share(), 0.3);
+}
+
+}  // namespace
+}  // namespace pursuit::tracker
