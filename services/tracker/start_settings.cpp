@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/start_settings.hpp"
 
+#include <algorithm>
+#include <span>
 #include <string>
 
 #include "services/tracker/model_file.hpp"
 
 namespace pursuit::tracker {
 namespace {
+
+bool is_of_strategies(const std::string& name) {
+    const auto table = strategy_parameter_table();
+    return std::any_of(table.begin(), table.end(),
+                       [&](const auto& parameter) { return parameter.name == name; });
+}
+
+}  // namespace
 
 Result<Registration> configured_model(const std::string& argument, EstimatorKind estimator) {
     auto parsed = parse_model_argument(argument);
@@ -27,8 +37,6 @@ Result<Registration> configured_model(const std::string& argument, EstimatorKind
     return registration;
 }
 
-}  // namespace
-
 Result<Tracker> configured_tracker(const disk::TrackerConfig& config,
                                    std::uint32_t next_object_id) {
     TrackerOptions options;
@@ -40,21 +48,24 @@ Result<Tracker> configured_tracker(const disk::TrackerConfig& config,
     options.next_object_id = next_object_id;
     auto made = Tracker::create(options);
     if (!made) return fail(made.error().message);
-    if (config.has_strategy()) {
-        const auto strategy = parse_strategy(config.strategy());
-        if (!strategy) {
-            return fail("field strategy: unknown \"" + config.strategy() + "\", must be " +
-                        strategy_names());
-        }
-        if (auto set = made->set_strategy(*strategy, {}); !set) {
-            return fail("field strategy: " + set.error().message);
-        }
-    }
+    std::vector<NamedValue> of_strategy;
     for (const auto& parameter : config.parameter()) {
         const NamedValue value{parameter.name(), parameter.value()};
-        if (auto set = made->set_parameters("", std::span(&value, 1)); !set) {
+        if (is_of_strategies(value.name)) {
+            of_strategy.push_back(value);
+        } else if (auto set = made->set_parameters("", std::span(&value, 1)); !set) {
             return fail("field parameter: " + set.error().message);
         }
+    }
+    // Where the configuration names no strategy, the preset's holds.
+    const auto strategy =
+        config.has_strategy() ? parse_strategy(config.strategy()) : made->settings().strategy;
+    if (!strategy) {
+        return fail("field strategy: unknown \"" + config.strategy() + "\", must be " +
+                    strategy_names());
+    }
+    if (auto set = made->set_strategy(*strategy, of_strategy); !set) {
+        return fail("field strategy: " + set.error().message);
     }
     return std::move(*made);
 }

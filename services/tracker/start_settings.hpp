@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "config.pb.h"
@@ -14,9 +15,12 @@ namespace pursuit::tracker {
 /// `next_object_id` were used before. An error names the field.
 Result<Tracker> configured_tracker(const disk::TrackerConfig& config, std::uint32_t next_object_id);
 
-/// The models that the configuration names, read from their files. Without "@…" an object begins
+/// The registration of PATH[@x,y,theta[,scale]] (model_file.hpp). Without "@…" an object begins
 /// where its file says that the model was made, or is searched for. A start with a scale is tracked
-/// as a similarity, else as an isometry, by the preset's estimator. An error names file and line.
+/// as a similarity, else as an isometry. An error names file and line.
+Result<Registration> configured_model(const std::string& argument, EstimatorKind estimator);
+
+/// The models that the configuration names, tracked by the preset's estimator.
 Result<std::vector<Registration>> configured_models(const disk::TrackerConfig& config);
 
 }  // namespace pursuit::tracker

@@ -48,7 +48,7 @@ struct StreamCounters {
 ///                       └─ it has ended, or its last packet is more than 1 s of host time older
 ///                          than this one ──────────────► begins again
 ///   followed id, sequence number up ───────────────────► continues (a jump is a gap)
-///   followed id, sequence number not up ── after its end, or with an earlier base time and a later
+///   followed id, sequence number not up ── with an earlier base time and a later
 ///                                          host time: a recording played again ─► begins again
 ///                                       └─ otherwise ──► old: a duplicate
 ///

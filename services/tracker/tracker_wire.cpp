@@ -73,6 +73,22 @@ void append(std::vector<v1::NamedValue>& wire, const std::vector<NamedValue>& va
     for (const auto& value : values) wire.push_back(named_value(value));
 }
 
+template <class Wire>
+void put(Wire& wire, const Shape& shape) {
+    for (const auto& point_px : shape.points_px) {
+        v1::ModelPoint point;
+        point.x_px(point_px.x());
+        point.y_px(point_px.y());
+        wire.points().push_back(point);
+    }
+    for (const auto& piece : shape.edges) {
+        v1::ModelEdge edge;
+        edge.from_point(piece.from);
+        edge.to_point(piece.to);
+        wire.edges().push_back(edge);
+    }
+}
+
 }  // namespace
 
 CallResult<std::vector<NamedValue>> values_of(const std::vector<v1::NamedValue>& wire) {
@@ -133,6 +149,18 @@ v1::StartPose start_pose(const Start& start) {
     return wire;
 }
 
+v1::RegisterModel register_model(const Registration& registration) {
+    v1::RegisterModel wire;
+    wire.object_id(registration.object_id);
+    wire.name(registration.shape.name);
+    wire.transform(static_cast<v1::TransformKind>(registration.transform));
+    wire.estimator(static_cast<v1::EstimatorKind>(registration.estimator));
+    wire.start(start_pose(registration.start));
+    append(wire.parameters(), registration.parameters);
+    put(wire, registration.shape);
+    return wire;
+}
+
 v1::RegisteredModel registered_model(std::uint32_t sensor_id, const RegisteredObject& object) {
     v1::RegisteredModel wire;
     wire.sensor_id(sensor_id);
@@ -144,18 +172,7 @@ v1::RegisteredModel registered_model(std::uint32_t sensor_id, const RegisteredOb
     wire.estimator(static_cast<v1::EstimatorKind>(object.estimator));
     wire.start(start_pose(object.start));
     append(wire.parameters(), values(object.parameters));
-    for (const auto& point_px : object.shape.points_px) {
-        v1::ModelPoint point;
-        point.x_px(point_px.x());
-        point.y_px(point_px.y());
-        wire.points().push_back(point);
-    }
-    for (const auto& piece : object.shape.edges) {
-        v1::ModelEdge edge;
-        edge.from_point(piece.from);
-        edge.to_point(piece.to);
-        wire.edges().push_back(edge);
-    }
+    put(wire, object.shape);
     return wire;
 }
 

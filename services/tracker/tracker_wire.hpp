@@ -25,6 +25,8 @@ CallResult<Start> start_of(const v1::StartPose& wire, const std::string& field);
 CallResult<StrategyKind> strategy_of(v1::OcclusionStrategy wire);
 CallResult<std::vector<NamedValue>> values_of(const std::vector<v1::NamedValue>& wire);
 
+/// The call that asks for a registration; its inverse is registration_of().
+v1::RegisterModel register_model(const Registration& registration);
 v1::RegisteredModel registered_model(std::uint32_t sensor_id, const RegisteredObject& object);
 v1::TrackerSettings tracker_settings(const std::string& instance, std::uint32_t sensor_id,
                                      const Settings& settings);
