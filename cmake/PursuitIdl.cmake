@@ -30,6 +30,7 @@ function(pursuit_idl_library name)
     add_library(${name} STATIC ${sources})
     target_include_directories(${name} SYSTEM PUBLIC ${out})
     target_link_libraries(${name} PUBLIC pursuit_options fastcdr fastrtps)
+    target_compile_options(${name} PRIVATE -g0)
 endfunction()
 
 # pursuit_proto_library(NAME PROTO a.proto …): compiles the on-disk schemas.
@@ -42,4 +43,5 @@ function(pursuit_proto_library name)
                       IMPORT_DIRS ${CMAKE_CURRENT_SOURCE_DIR} ${Protobuf_INCLUDE_DIRS})
     target_include_directories(${name} SYSTEM PUBLIC ${out})
     target_link_libraries(${name} PUBLIC pursuit_options protobuf::libprotobuf)
+    target_compile_options(${name} PRIVATE -g0)
 endfunction()

@@ -1,8 +1,9 @@
 # How every target of our own is made: one set of warnings, all of them errors, and the same
 # floating-point rules everywhere, because the same events must give the same poses bit for bit.
 
-set(CMAKE_CXX_FLAGS_RELEASE "-O3 -g -DNDEBUG")
-set(CMAKE_C_FLAGS_RELEASE "-O3 -g -DNDEBUG")
+# -g1: stack traces with lines at a third of the size, and quicker to build.
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -g1 -DNDEBUG")
+set(CMAKE_C_FLAGS_RELEASE "-O3 -g1 -DNDEBUG")
 # Assertions on; optimised as far as sanitizer reports stay readable.
 set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1")
 set(CMAKE_C_FLAGS_SANITIZE "-O1 -g1")
