@@ -14,9 +14,11 @@ namespace pursuit::tracker {
 /// How near an event is to an object.
 struct Approach {
     double distance_px = std::numeric_limits<double>::infinity();  ///< Infinite beyond the gate.
-    double likelihood = 0;    ///< Of the event under the object, 1/px.
-    double clutter = 0;       ///< Density of events that are no object's, 1/px.
-    std::int32_t piece = -1;  ///< Of the contour; -1 where the estimator knows points alone.
+    double likelihood = 0;  ///< Of the event under the object, 1/px.
+    double clutter = 0;     ///< Density of events that are no object's, 1/px.
+
+    double contour_px = std::numeric_limits<double>::infinity();  ///< To the contour.
+    std::int32_t piece = -1;                                      ///< Of the contour, the nearest.
 
     [[nodiscard]] bool is_within() const {
         return distance_px < std::numeric_limits<double>::infinity();

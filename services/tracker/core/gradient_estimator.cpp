@@ -39,9 +39,11 @@ Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     const double foot = piece.foot(x.x(), x.y(), metric);
     m_ << piece.ax + foot * (piece.bx - piece.ax), piece.ay + foot * (piece.by - piece.ay);
     t_us_ = event.t_us;
+    const auto on_contour =
+        pull_ == Pull::contour ? nearest : contour_.pieces().nearest(x.x(), x.y(), metric);
     // As of events scattered by a pixel, beside a little clutter.
     return {distance_px_, 0.4 * std::exp(-0.5 * distance_px_ * distance_px_), 0.02,
-            pull_ == Pull::contour ? nearest.piece : -1};
+            std::sqrt(on_contour.squared_px), on_contour.piece};
 }
 
 bool GradientEstimator::take(double weight) {

@@ -182,7 +182,7 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     measured_.near_likelihood = (1 - tail_share) * normal_density(r_px, near_variance);
     measured_.far_likelihood = tail_share * normal_density(r_px, near_variance + tail_px2);
     return {std::abs(r_px), measured_.near_likelihood + measured_.far_likelihood,
-            clutter_.density(r_px), nearest.piece};
+            clutter_.density(r_px), std::abs(r_px), nearest.piece};
 }
 
 template <TransformKind kind>

@@ -12,6 +12,10 @@ namespace {
 constexpr std::array object_table{
     Parameter<ObjectParameters>{"gate_px", &ObjectParameters::gate_px, 0.5, 50, "px",
                                 "events farther from the model than this are not the object's"},
+    Parameter<ObjectParameters>{
+        "let_go_sharpness", &ObjectParameters::let_go_sharpness, 0, 1, "1",
+        "the object is let go where fewer of its events than this share lie "
+        "within a quarter of the gate; 0.25 is chance, 0 never lets go"},
     Parameter<ObjectParameters>{"gradient_position_gain", &ObjectParameters::gradient_position_gain,
                                 0, 0.5, "1", "eta1 of the paper: step of the position"},
     Parameter<ObjectParameters>{"gradient_angle_gain_rad_px2",
@@ -88,6 +92,7 @@ Preset paper() {
                   {},
                   {}};
     preset.object.gate_px = 3;
+    preset.object.let_go_sharpness = 0;  // The paper's tracks have no end.
     preset.object.gradient_position_gain = 0.1;
     preset.object.gradient_angle_gain_rad_px2 = 2e-5;
     preset.object.gradient_scale_gain_1_px = 1e-5;

@@ -22,6 +22,7 @@ struct NamedValue {
 /// The constants of one object. Names, units, ranges and meanings: object_parameter_table().
 struct ObjectParameters {
     double gate_px = 4;
+    double let_go_sharpness = 0.31;
     double gradient_position_gain = 0.03;
     double gradient_angle_gain_rad_px2 = 5e-5;
     double gradient_scale_gain_1_px = 1e-4;

@@ -108,7 +108,7 @@ Approach Track::approach(const Event& event, std::int64_t since_same_us) {
     if (is_searching_) return {};
     if (!is_acquiring_) {
         const Approach near = estimator_->approach(event, since_same_us);
-        distance_px_ = near.distance_px;
+        distance_px_ = near.contour_px;
         piece_ = near.piece;
         return near;
     }
@@ -126,7 +126,9 @@ bool Track::take(const Event& event, double weight) {
         if (acquisition_->is_done()) acquire(event.t_us);
     } else {
         health_.count(distance_px_, parameters_.gate_px, event.t_us);
-        if (health_.is_settled() && (health_.is_bad() || cover_->share() < Health::bad_cover)) {
+        const bool may_let_go = parameters_.let_go_sharpness > 0 && health_.is_settled();
+        if (may_let_go && (health_.is_below(parameters_.let_go_sharpness) ||
+                           cover_->share() < Health::bad_cover)) {
             lose_grip(event.t_us);
             return false;
         }
@@ -136,7 +138,7 @@ bool Track::take(const Event& event, double weight) {
         if (piece_ >= 0 && distance_px_ < parameters_.gate_px / 4) {
             cover_->count(piece_, estimator_->pose(), estimator_->velocity());
         }
-        if (health_.is_good()) remember_good(event.t_us);
+        if (health_.is_fair()) remember_good(event.t_us);
     }
     last_event_t_us_ = event.t_us;
     ++events_used_;
@@ -152,7 +154,7 @@ TrackState Track::state_at(std::int64_t t_us) const {
 
 double Track::confidence_at(std::int64_t t_us) const {
     if (is_searching_ || is_acquiring_) return 0;
-    const double sharp = std::clamp((health_.sharpness() - 0.25) / 0.5, 0.0, 1.0);
+    const double sharp = std::clamp((health_.sharpness() - 0.25) / 0.4, 0.0, 1.0);
     const double fit = std::min(sharp, std::clamp((cover_->share() - 0.4) / 0.2, 0.0, 1.0));
     const double silent_s = seconds(t_us - health_.lively_t_us()) - sure_s;
     return silent_s > 0 ? fit * std::exp(-silent_s / doubt_s) : fit;

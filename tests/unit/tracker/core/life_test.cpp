@@ -144,7 +144,7 @@ TEST(Health, tells_events_on_the_contour_from_events_anywhere) {
     }
     EXPECT_TRUE(on_it.is_settled());
     EXPECT_TRUE(on_it.is_good());
-    EXPECT_TRUE(anywhere.is_bad());
+    EXPECT_TRUE(anywhere.is_below(ObjectParameters().let_go_sharpness));
 }
 
 TEST(Cover, is_whole_where_all_of_a_moving_contour_makes_events) {
