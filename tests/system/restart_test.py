@@ -72,9 +72,9 @@ class Restart(SystemTest):
         sensor.kill()
         # Silence is the sensor's fault, not the track's.
         self.eventually(lambda: self.status("tracker")["sensor_silent"], what="silence is noticed")
+        stream = self.status("tracker")["stream_id"]
         restarted = time.monotonic()
         self.sensor(start_s=1.3)
-        stream = self.status("tracker")["stream_id"]
         pose = self.eventually(
             lambda: (lambda p: p if p["t_us"] > 1_300_000 and p["stream_id"] != stream else None)(
                 self.last_pose()), timeout=5, what="a pose of the new stream")

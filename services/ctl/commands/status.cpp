@@ -24,8 +24,9 @@ namespace {
 using namespace std::chrono_literals;
 using SteadyClock = std::chrono::steady_clock;
 
-/// Services find each other within this time on one host or network.
-constexpr auto settle_time = 400ms;
+/// Services find each other within this time on one host or network: while a kind is missing, it
+/// is waited for so long.
+constexpr auto settle_time = 1000ms;
 constexpr auto poll_period = 10ms;
 
 struct Options {
@@ -79,6 +80,9 @@ struct Overview {
 
     [[nodiscard]] std::size_t size() const {
         return sensors.size() + trackers.size() + recorders.size();
+    }
+    [[nodiscard]] bool has_every_kind() const {
+        return !sensors.empty() && !trackers.empty() && !recorders.empty();
     }
     [[nodiscard]] bool all_running() const {
         const auto running = [](const auto& services) {
@@ -148,11 +152,12 @@ int status(const Options& options) {
     const auto begin = SteadyClock::now();
     const auto done = [&] {
         const auto overview = listener.overview();
-        if (options.wait_running) return overview.all_running() && listener.complete();
-        return overview.size() > 0 && listener.complete();
+        if (!listener.complete()) return false;
+        if (options.wait_running && !overview.all_running()) return false;
+        if (overview.has_every_kind()) return true;
+        return overview.size() > 0 && SteadyClock::now() - begin > settle_time;
     };
-    while (SteadyClock::now() - begin < settle_time ||
-           (!done() && SteadyClock::now() - begin < options.dds.timeout())) {
+    while (!done() && SteadyClock::now() - begin < options.dds.timeout()) {
         std::this_thread::sleep_for(poll_period);
     }
     const auto overview = listener.overview();
