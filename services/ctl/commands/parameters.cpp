@@ -23,8 +23,8 @@ void print(const char* title, std::span<const tracker::Parameter<Parameters>> ta
 
 int run() {
     std::printf("name, default, range and unit, meaning\n\n");
-    print("of an object (model register --set, set-parameter):", tracker::object_parameter_table());
-    print("\nof the tracker (set-parameter):", tracker::tracker_parameter_table());
+    print("of an object (model register --set, parameter set):", tracker::object_parameter_table());
+    print("\nof the tracker (parameter set):", tracker::tracker_parameter_table());
     print("\nof the occlusion strategies (strategy set --set):",
           tracker::strategy_parameter_table());
     std::printf("\npresets (preset: in the configuration, track --preset):\n");

@@ -26,6 +26,10 @@ Result<sensor::SimulationSummary> write(const Options& options, const sensor::Sc
     const auto& array = scene.description().sensor();
     const Geometry geometry{static_cast<std::uint16_t>(array.width()),
                             static_cast<std::uint16_t>(array.height())};
+    if (options.events.empty()) {
+        const auto nothing = [](std::span<const Event>) { return Result<void>(); };
+        return sensor::write_simulation(scene, options.seed, nothing, options.files);
+    }
     auto writer = sensor::create_events(options.events, geometry);
     if (!writer) return tl::unexpected(writer.error());
     const auto summary = sensor::write_simulation(
@@ -62,8 +66,8 @@ Run define_simulate(CLI::App& app) {
     app.add_option("SCENE", options->scene, scene_help())->required();
     app.add_option("--seed", options->seed, "Of the scene's choices and noise")
         ->capture_default_str();
-    app.add_option("--events", options->events, "Recording to write; its extension is its format")
-        ->required();
+    app.add_option("--events", options->events,
+                   "Recording to write; its extension is its format. Without: the truth alone");
     app.add_option("--truth", options->files.truth_path, "Table of truth to write, CSV")
         ->required();
     app.add_option("--models", options->models, "Folder for the models and their start poses");
