@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "services/ctl/commands/mcap_info.hpp"
 #include "services/ctl/commands/offline_commands.hpp"
 #include "services/ctl/commands/option_values.hpp"
 #include "services/ctl/commands/report.hpp"
@@ -16,6 +17,8 @@ struct Options {
     std::string events;
     std::string format;
     std::string geometry;
+    bool full = false;
+    bool json = false;
 };
 
 void print(const RecordingFacts& facts) {
@@ -43,6 +46,10 @@ void print(const RecordingFacts& facts) {
 }
 
 int info(const Options& options) {
+    if (is_mcap(options.events)) return print_mcap_info(options.events, options.full, options.json);
+    if (options.json || options.full) {
+        return report({options.events + ": no MCAP recording; --json and --full are for those"});
+    }
     const auto geometry = geometry_of(options.geometry);
     if (!geometry) return report(geometry.error());
     auto recording = sensor::open_events(options.events, {options.format, *geometry});
@@ -56,9 +63,12 @@ int info(const Options& options) {
 
 Run define_info(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    app.add_option("FILE", options->events, "Recording of events")->required();
+    app.add_option("FILE", options->events, "Recording: of events, or of topics (MCAP)")
+        ->required();
     app.add_option("--format", options->format, "Format, where the file does not tell");
     app.add_option("--geometry", options->geometry, geometry_help);
+    app.add_flag("--full", options->full, "MCAP: read everything and check it");
+    app.add_flag("--json", options->json, "MCAP: as one JSON object");
     return [options] { return info(*options); };
 }
 

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/ctl/commands/mcap_info.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cinttypes>
+#include <cstdio>
+#include <fstream>
+
+#include "services/ctl/commands/report.hpp"
+#include "services/recorder/mcap/info.hpp"
+
+namespace pursuit::ctl {
+namespace {
+
+namespace mcap = recorder::mcap;
+
+/// A JSON string; octets beyond ASCII are taken to be UTF-8.
+std::string quoted(std::string_view text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') {
+            out += '\\';
+            out += c;
+        } else if (static_cast<unsigned char>(c) < 0x20) {
+            char escape[8];
+            std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned char>(c));
+            out += escape;
+        } else {
+            out += c;
+        }
+    }
+    return out + "\"";
+}
+
+void print_json(const mcap::Info& info) {
+    std::printf("{\"file\": %s, \"file_bytes\": %" PRIu64 ", \"condition\": %s,\n",
+                quoted(info.file_name).c_str(), info.file_bytes,
+                quoted(name_of(info.condition)).c_str());
+    std::printf(" \"closed_cleanly\": %s, \"messages\": %" PRIu64 ", \"chunks\": %" PRIu64
+                ", \"damaged_chunks\": %" PRIu64 ",\n",
+                info.condition == mcap::Condition::closed ? "true" : "false", info.messages,
+                info.chunks, info.damaged_chunks);
+    std::printf(" \"first_log_time_ns\": %" PRId64 ", \"duration_s\": %.9f,\n",
+                info.first_log_time_ns.value_or(0), info.duration_s());
+    std::printf(" \"faults\": [");
+    for (std::size_t i = 0; i < info.faults.size(); ++i) {
+        std::printf("%s%s", i == 0 ? "" : ", ", quoted(info.faults[i]).c_str());
+    }
+    std::printf("],\n \"channels\": [");
+    for (std::size_t i = 0; i < info.channels.size(); ++i) {
+        const auto& channel = info.channels[i];
+        std::printf("%s\n  {\"topic\": %s, \"type\": %s, \"encoding\": %s, \"messages\": %" PRIu64
+                    ", \"metadata\": {",
+                    i == 0 ? "" : ",", quoted(channel.channel.topic).c_str(),
+                    quoted(channel.schema_name).c_str(),
+                    quoted(channel.channel.message_encoding).c_str(), channel.messages);
+        bool first = true;
+        for (const auto& [key, value] : channel.channel.metadata) {
+            std::printf("%s%s: %s", first ? "" : ", ", quoted(key).c_str(), quoted(value).c_str());
+            first = false;
+        }
+        std::printf("}}");
+    }
+    std::printf("]}\n");
+}
+
+}  // namespace
+
+bool is_mcap(const std::string& path) {
+    std::array<char, mcap::magic.size()> begin{};
+    std::ifstream file(path, std::ios::binary);
+    file.read(begin.data(), begin.size());
+    return file &&
+           std::equal(begin.begin(), begin.end(), mcap::magic.begin(),
+                      [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+}
+
+int print_mcap_info(const std::string& path, bool full, bool json) {
+    auto input = mcap::FileInput::open(path);
+    if (!input) return report(input.error());
+    const auto depth = full ? mcap::InfoDepth::full : mcap::InfoDepth::summary;
+    const auto info = mcap::read_info(std::move(*input), path, depth);
+    if (!info) return report(info.error());
+    if (json) {
+        print_json(*info);
+    } else {
+        std::fputs(to_text(*info).c_str(), stdout);
+    }
+    if (info->condition == mcap::Condition::closed && info->damaged_chunks == 0) {
+        return exit_success;
+    }
+    return report({path + ": " + std::string(name_of(info->condition))});
+}
+
+}  // namespace pursuit::ctl

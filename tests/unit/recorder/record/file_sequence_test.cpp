@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/recorder/record/file_sequence.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "services/recorder/mcap/facts.hpp"
+#include "services/recorder/mcap/reader.hpp"
+#include "services/recorder/record/output_path.hpp"
+#include "services/recorder/record/related_sample.hpp"
+#include "services/recorder/record/sample_queue.hpp"
+
+namespace pursuit::recorder {
+namespace {
+
+class Files : public ::testing::Test {
+ protected:
+    Files() {
+        char pattern[] = "/tmp/pursuit-files-XXXXXX";
+        folder_ = ::mkdtemp(pattern);
+    }
+    ~Files() override { std::filesystem::remove_all(folder_); }
+
+    FileSequence sequence(FileOptions options) {
+        return FileSequence(
+            std::move(options), topics_, [](auto&, auto&) { return OfferedQos{}; },
+            [this](const std::string& error) { errors_.push_back(error); });
+    }
+    static Sample sample(std::uint8_t content, std::size_t topic = 0, std::uint8_t writer = 1) {
+        Sample sample;
+        sample.topic = topic;
+        sample.id.writer.fill(writer);
+        sample.id.sequence = content;
+        sample.reception_time_ns = 1000 + content;
+        sample.payload = {0, 1, 0, 0, content};
+        return sample;
+    }
+    struct Message {
+        mcap::Channel channel;
+        mcap::Bytes data;
+    };
+    static std::vector<Message> messages(const std::string& path) {
+        std::vector<Message> found;
+        auto input = mcap::FileInput::open(path);
+        if (!input) return found;
+        auto reader = mcap::Reader::open(std::move(*input), path);
+        while (reader) {
+            const auto message = reader->next();
+            if (!message || !*message) break;
+            found.push_back(
+                {*(*message)->channel, {(*message)->data.begin(), (*message)->data.end()}});
+        }
+        return found;
+    }
+    std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+    std::string folder_;
+    std::vector<TopicFacts> topics_ = {
+        {"pursuit/poses", "pursuit::v1::ObjectPose", true, "poses", 16},
+        {"pursuit/tracker/reply", "pursuit::v1::TrackerReply", false, "calls", 128}};
+    std::vector<std::string> errors_;
+};
+
+TEST_F(Files, keep_writers_apart_and_say_who_they_are) {
+    auto files = sequence({path("a.mcap"), {}, 0});
+    ASSERT_TRUE(files.begin({}));
+    files.write(sample(1, 0, 0x0a), {});
+    files.write(sample(2, 0, 0x0b), {});
+    files.close({});
+    const auto found = messages(path("a.mcap"));
+    ASSERT_EQ(found.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto facts = mcap::replay_facts(found[i].channel);
+        ASSERT_TRUE(facts && *facts);
+        EXPECT_EQ((*facts)->writer_guid, to_hex(sample(1, 0, i == 0 ? 0x0a : 0x0b).id.writer));
+        EXPECT_EQ((*facts)->writer_guid.substr(0, 4), i == 0 ? "0a0a" : "0b0b");
+        EXPECT_TRUE((*facts)->keyed);
+        EXPECT_EQ((*facts)->history_depth, 16U);
+        EXPECT_EQ(found[i].channel.metadata.at("pursuit.flow"), "poses");
+    }
+    EXPECT_EQ(files.totals().messages, 2U);
+    EXPECT_EQ(files.totals().topics[0].bytes, 10U);
+}
+
+TEST_F(Files, hold_disposes_and_the_request_behind_a_reply) {
+    auto files = sequence({path("a.mcap"), {}, 0});
+    ASSERT_TRUE(files.begin({}));
+    auto dispose = sample(1);
+    dispose.kind = SampleKind::disposed;
+    dispose.payload.clear();
+    dispose.instance.fill(9);
+    files.write(dispose, {});
+    auto reply = sample(2, 1);
+    reply.related.writer.fill(7);
+    reply.related.sequence = 0x1'0000'0002;
+    files.write(reply, {});
+    files.close({});
+    const auto found = messages(path("a.mcap"));
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_EQ(found[0].channel.message_encoding, mcap::instance_state_encoding);
+    EXPECT_EQ(found[0].channel.schema_id, 0U);
+    const auto state = mcap::decode_instance_state(found[0].data);
+    ASSERT_TRUE(state);
+    EXPECT_TRUE(state->disposed && !state->unregistered);
+    EXPECT_EQ(state->key_hash, dispose.instance);
+    EXPECT_EQ(found[2].channel.topic, "pursuit/tracker/reply");
+    EXPECT_EQ(found[2].channel.message_encoding, related_sample_encoding);
+    EXPECT_EQ(decode_related(found[2].data), reply.related);
+}
+
+TEST_F(Files, begin_a_next_one_at_the_size_that_is_set_and_lose_nothing) {
+    mcap::WriterOptions options;
+    options.compression = mcap::Compression::none;
+    auto files = sequence({path("a.mcap"), options, 60'000});
+    ASSERT_TRUE(files.begin({}));
+    std::size_t sent = 0;
+    for (; sent < 200; ++sent) {
+        auto large = sample(static_cast<std::uint8_t>(sent));
+        large.payload.resize(1000);
+        files.write(large, {});
+    }
+    files.close({});
+    std::size_t found = 0;
+    for (const auto* name : {"a.mcap", "a-1.mcap", "a-2.mcap", "a-3.mcap", "a-4.mcap"}) {
+        for (const auto& message : messages(path(name))) {
+            EXPECT_EQ(message.data[4], found++);
+        }
+        if (std::filesystem::exists(path(name))) {
+            EXPECT_LT(std::filesystem::file_size(path(name)), 80'000U);
+        }
+    }
+    EXPECT_EQ(found, sent);
+    EXPECT_EQ(files.totals().messages, sent);
+    EXPECT_TRUE(std::filesystem::exists(path("a-3.mcap")));
+}
+
+TEST_F(Files, that_cannot_be_written_are_tried_again_every_second_and_what_is_lost_is_counted) {
+    const auto place = path("place");
+    std::filesystem::create_directory(place);
+    auto files = sequence({place + "/a.mcap", {}, 0});
+    ASSERT_TRUE(files.begin({}));
+    files.write(sample(1), {});
+    std::filesystem::remove_all(place);
+    EXPECT_FALSE(files.new_file({}));
+    EXPECT_THAT(files.totals().fault, ::testing::HasSubstr("No such file or directory"));
+    files.write(sample(2), {});
+    files.tick({900'000, 0});
+    std::filesystem::create_directory(place);
+    files.tick({999'999, 0});
+    EXPECT_FALSE(files.totals().fault.empty());
+    files.tick({1'000'000, 0});
+    EXPECT_EQ(files.totals().fault, "");
+    files.write(sample(3), {1'000'000, 0});
+    files.close({1'000'000, 0});
+    EXPECT_EQ(messages(place + "/a.mcap").size(), 1U);
+    EXPECT_EQ(files.totals().lost_disk, 1U);
+    EXPECT_EQ(files.totals().topics_lost[0], 1U);
+    EXPECT_EQ(errors_.size(), 1U);
+}
+
+TEST_F(Files, that_cannot_be_begun_are_an_error_with_the_path) {
+    auto files = sequence({path("nowhere/a.mcap"), {}, 0});
+    const auto begun = files.begin({});
+    ASSERT_FALSE(begun);
+    EXPECT_THAT(begun.error().message, ::testing::HasSubstr(path("nowhere/a.mcap")));
+}
+
+TEST_F(Files, take_the_first_free_name) {
+    EXPECT_EQ(free_path(path("a.b.mcap")), path("a.b.mcap"));
+    std::ofstream(path("a.b.mcap")) << "";
+    EXPECT_EQ(free_path(path("a.b.mcap")), path("a.b-1.mcap"));
+    std::filesystem::create_symlink("/nowhere", path("a.b-1.mcap"));
+    EXPECT_EQ(free_path(path("a.b.mcap")), path("a.b-2.mcap"));
+}
+
+TEST(OutputPath, has_the_time_of_the_start_in_utc) {
+    EXPECT_EQ(expand_time("/x/%t-%t.mcap", 1'767'323'045'999'999'999),
+              "/x/20260102T030405Z-20260102T030405Z.mcap");
+    EXPECT_EQ(expand_time("plain", 0), "plain");
+}
+
+TEST(SampleQueue, full_drops_the_newest_and_keeps_the_order) {
+    const auto make = [](std::uint8_t content) {
+        Sample sample;
+        sample.payload.assign(100, content);
+        return sample;
+    };
+    const auto size = SampleQueue::bytes_of(make(0));
+    SampleQueue queue(3 * size);
+    for (std::uint8_t i = 0; i < 3; ++i) EXPECT_TRUE(queue.push(make(i)));
+    EXPECT_FALSE(queue.push(make(3)));
+    EXPECT_EQ(queue.bytes(), 3 * size);
+    const auto two = queue.take(std::chrono::milliseconds(0), 2);
+    ASSERT_EQ(two.size(), 2U);
+    EXPECT_EQ(two[0].payload[0], 0);
+    EXPECT_EQ(two[1].payload[0], 1);
+    EXPECT_EQ(queue.bytes(), size);
+    EXPECT_TRUE(queue.push(make(4)));
+    const auto rest = queue.take(std::chrono::milliseconds(0), 10);
+    ASSERT_EQ(rest.size(), 2U);
+    EXPECT_EQ(rest[1].payload[0], 4);
+    EXPECT_EQ(queue.bytes(), 0U);
+    EXPECT_TRUE(queue.take(std::chrono::milliseconds(0), 10).empty());
+}
+
+}  // namespace
+}  // namespace pursuit::recorder
