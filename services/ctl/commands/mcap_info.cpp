@@ -16,7 +16,7 @@ namespace {
 namespace mcap = recorder::mcap;
 
 /// A JSON string; octets beyond ASCII are taken to be UTF-8.
-std::string quoted(std::string_view text) {
+std::string json_string(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') {
@@ -35,8 +35,8 @@ std::string quoted(std::string_view text) {
 
 void print_json(const mcap::Info& info) {
     std::printf("{\"file\": %s, \"file_bytes\": %" PRIu64 ", \"condition\": %s,\n",
-                quoted(info.file_name).c_str(), info.file_bytes,
-                quoted(name_of(info.condition)).c_str());
+                json_string(info.file_name).c_str(), info.file_bytes,
+                json_string(name_of(info.condition)).c_str());
     std::printf(" \"closed_cleanly\": %s, \"messages\": %" PRIu64 ", \"chunks\": %" PRIu64
                 ", \"damaged_chunks\": %" PRIu64 ",\n",
                 info.condition == mcap::Condition::closed ? "true" : "false", info.messages,
@@ -45,19 +45,20 @@ void print_json(const mcap::Info& info) {
                 info.first_log_time_ns.value_or(0), info.duration_s());
     std::printf(" \"faults\": [");
     for (std::size_t i = 0; i < info.faults.size(); ++i) {
-        std::printf("%s%s", i == 0 ? "" : ", ", quoted(info.faults[i]).c_str());
+        std::printf("%s%s", i == 0 ? "" : ", ", json_string(info.faults[i]).c_str());
     }
     std::printf("],\n \"channels\": [");
     for (std::size_t i = 0; i < info.channels.size(); ++i) {
         const auto& channel = info.channels[i];
         std::printf("%s\n  {\"topic\": %s, \"type\": %s, \"encoding\": %s, \"messages\": %" PRIu64
                     ", \"metadata\": {",
-                    i == 0 ? "" : ",", quoted(channel.channel.topic).c_str(),
-                    quoted(channel.schema_name).c_str(),
-                    quoted(channel.channel.message_encoding).c_str(), channel.messages);
+                    i == 0 ? "" : ",", json_string(channel.channel.topic).c_str(),
+                    json_string(channel.schema_name).c_str(),
+                    json_string(channel.channel.message_encoding).c_str(), channel.messages);
         bool first = true;
         for (const auto& [key, value] : channel.channel.metadata) {
-            std::printf("%s%s: %s", first ? "" : ", ", quoted(key).c_str(), quoted(value).c_str());
+            std::printf("%s%s: %s", first ? "" : ", ", json_string(key).c_str(),
+                        json_string(value).c_str());
             first = false;
         }
         std::printf("}}");
