@@ -54,6 +54,8 @@ function(pursuit_test name)
     pursuit_executable(${name} SOURCES ${arg_SOURCES}
                        LIBRARIES ${arg_LIBRARIES} GTest::gmock GTest::gtest_main)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+    # What is tested keeps its optimisation; the tests themselves are to be built soon.
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
     if(NOT arg_LABELS)
         set(arg_LABELS unit)
     endif()
