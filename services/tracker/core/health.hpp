@@ -36,7 +36,9 @@ class Health {
         const double is_sharp = distance_px < gate_px / 4 ? 1 : 0;
         is_quiet_ = recent_ < own_rate_ / 4;
         if (!is_quiet_) {
-            sharpness_ += (is_sharp - sharpness_) / window_events;
+            // Over the last 17 ms where events are many: noise that hides most of them is steady.
+            window_ = std::clamp(recent_ / 3, window_events, most_events);
+            sharpness_ += (is_sharp - sharpness_) / window_;
             quiet_sharpness_ = nothing_fits;
             lively_t_us_ = t_us;
             return;
@@ -52,6 +54,16 @@ class Health {
     [[nodiscard]] bool is_quiet() const { return is_quiet_; }
     /// The last event that did not.
     [[nodiscard]] std::int64_t lively_t_us() const { return lively_t_us_; }
+
+    /// Whether the events speak against the pose: at chance, from a part of the contour alone, or a
+    /// little of both.
+    [[nodiscard]] bool is_against(double let_go_sharpness, double cover) const {
+        // The more events the mean is over, the nearer to chance it can tell.
+        const double above_chance =
+            (let_go_sharpness - nothing_fits) * std::sqrt(window_events / window_);
+        return sharpness_ < nothing_fits + above_chance || cover < bad_cover ||
+               (sharpness_ < doubtful && cover < doubtful_cover);
+    }
 
     /// Between the two nothing changes: a track is not given up and taken up by turns.
     [[nodiscard]] bool is_good() const { return sharpness_ > good; }
@@ -71,13 +83,17 @@ class Health {
     static constexpr double nothing_fits = 0.25;
     static constexpr double begin_of_fit = 0.42;
     static constexpr double window_events = 150;
+    static constexpr double most_events = 2000;
+    static constexpr double doubtful = 0.42;
+    static constexpr double doubtful_cover = 0.75;
     static constexpr double memory_s = 0.05;
     static constexpr double own_memory_s = 0.5;
 
     double sharpness_ = begin;
     double quiet_sharpness_ = nothing_fits;
     double events_ = 0;
-    double recent_ = 0;    // events of the last 50 ms, fading
+    double recent_ = 0;  // events of the last 50 ms, fading
+    double window_ = window_events;
     double own_rate_ = 0;  // the same while the events fitted
     bool is_quiet_ = false;
     std::int64_t t_us_ = 0;

@@ -126,9 +126,8 @@ bool Track::take(const Event& event, double weight) {
         if (acquisition_->is_done()) acquire(event.t_us);
     } else {
         health_.count(distance_px_, parameters_.gate_px, event.t_us);
-        const bool may_let_go = parameters_.let_go_sharpness > 0 && health_.is_settled();
-        if (may_let_go && (health_.is_below(parameters_.let_go_sharpness) ||
-                           cover_->share() < Health::bad_cover)) {
+        if (parameters_.let_go_sharpness > 0 && health_.is_settled() &&
+            health_.is_against(parameters_.let_go_sharpness, cover_->share())) {
             lose_grip(event.t_us);
             return false;
         }
