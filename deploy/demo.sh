@@ -56,12 +56,12 @@ ctl() { local command=$1; shift; "$bin/pursuitctl" "$command" "$@" --domain "$do
 models=() truth=()
 if [[ -z $recording ]]; then
     say "the scene: a van at 42 px/s overtakes a car at 24 px/s"
-    "$bin/pursuitctl" simulate overtake --seed 1 --truth "$work/truth.csv" --models "$work/models"
+    "$bin/pursuitctl" simulate overtake --seed 4 --truth "$work/truth.csv" --models "$work/models"
     truth=(--truth "$work/truth.csv")
     while IFS=, read -r name x y theta scale mode _; do
         [[ $name == object ]] || models+=("$work/models/model_$name.csv@$x,$y,$theta,$scale")
     done <"$work/models/start.csv"
-    source=(scene=overtake seed=1)
+    source=(scene=overtake seed=4)
     transform=isometry
 else
     shift

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pursuit::tracker {
 namespace {
@@ -12,6 +13,10 @@ constexpr std::int64_t keep_every_us = 30'000;
 
 // How often the acquisition begins again at the coasted pose.
 constexpr std::int64_t acquisition_us = 150'000;
+
+// A given start is looked for this near; what was lost, as far as the descent reaches.
+constexpr double start_gate_px = 8;
+constexpr double lost_gate_px = 30;
 
 // In silence nothing tells that the object is still there.
 constexpr double sure_s = 0.1;
@@ -40,7 +45,7 @@ void Track::replace(const RegisteredObject& object) {
     const PoseRecord last = record(last_event_t_us_);
     make_for(object);
     estimator_->restart(constrained(last.pose, transform_), last.velocity);
-    if (is_acquiring_) acquisition_->begin(constrained(last.pose, transform_));
+    if (is_acquiring_) acquisition_->begin(constrained(last.pose, transform_), reach_px_);
     for (Coast& good : good_) good.pose = constrained(good.pose, transform_);
 }
 
@@ -53,15 +58,19 @@ void Track::set_parameters(const ObjectParameters& parameters, const TrackerPara
 void Track::restart(const RegisteredObject& object) {
     make_for(object);
     is_searching_ = object.start.search;
-    is_acquiring_ = false;
+    is_acquiring_ = true;
+    is_fresh_ = true;
     health_.restart();
     cover_->restart();
     estimator_->restart(object.start.pose, object.start.velocity);
+    reach_px_ = start_gate_px;
+    acquisition_->begin(object.start.pose, reach_px_);
     for (Coast& good : good_) good = {-1, object.start.pose, object.start.velocity};
 }
 
 void Track::begin_stream() {
-    if (is_searching_) return;
+    // A start pose that no event has moved yet was given for the stream that begins.
+    if (is_searching_ || is_fresh_) return;
     // How long the sensor was away is not known: the last good pose, at rest.
     const Pose last = is_acquiring_ ? good_[1].pose : estimator_->pose();
     for (Coast& good : good_) good = {0, last, {}};
@@ -79,10 +88,11 @@ void Track::remember_good(std::int64_t t_us) {
 
 void Track::lose_grip(std::int64_t t_us) {
     is_acquiring_ = true;
+    reach_px_ = lost_gate_px;
     grip_lost_us_ = t_us;
     if (good_[1].t_us < 0) good_[1].t_us = t_us;
     acquisition_began_us_ = t_us;
-    acquisition_->begin(coasted(t_us));
+    acquisition_->begin(coasted(t_us), reach_px_);
 }
 
 void Track::acquire(std::int64_t t_us) {
@@ -106,6 +116,10 @@ Pose Track::pose() const { return is_acquiring_ ? acquisition_->pose() : estimat
 
 Approach Track::approach(const Event& event, std::int64_t since_same_us) {
     if (is_searching_) return {};
+    if (std::exchange(is_fresh_, false)) {
+        grip_lost_us_ = acquisition_began_us_ = event.t_us;
+        for (Coast& good : good_) good.t_us = event.t_us;
+    }
     if (!is_acquiring_) {
         const Approach near = estimator_->approach(event, since_same_us);
         distance_px_ = near.contour_px;
@@ -113,9 +127,11 @@ Approach Track::approach(const Event& event, std::int64_t since_same_us) {
         return near;
     }
     const bool is_coasting = seconds(event.t_us - grip_lost_us_) < tracker_.coast_s;
-    if (is_coasting && event.t_us - acquisition_began_us_ > acquisition_us) {
+    // What was never held has no pose to coast from: the descent goes on from where it is.
+    if (reach_px_ > start_gate_px && is_coasting &&
+        event.t_us - acquisition_began_us_ > acquisition_us) {
         acquisition_began_us_ = event.t_us;
-        acquisition_->begin(coasted(event.t_us));
+        acquisition_->begin(coasted(event.t_us), reach_px_);
     }
     return acquisition_->approach(event);
 }
@@ -169,7 +185,7 @@ PoseRecord Track::record(std::int64_t t_us) const {
     record.state = state_at(t_us);
     estimator_->describe(t_us, record);
     if (is_acquiring_) {
-        record.pose = coasted(t_us);
+        record.pose = reach_px_ > start_gate_px ? coasted(t_us) : acquisition_->pose();
         record.velocity = good_[1].velocity;
     }
     record.theta_rad = theta_rad(record.pose.a);

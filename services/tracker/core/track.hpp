@@ -76,6 +76,8 @@ class Track {
     std::int32_t piece_ = -1;
     bool is_searching_ = false;
     bool is_acquiring_ = false;
+    bool is_fresh_ = true;  // since the restart no event came
+    double reach_px_ = 0;   // how far off the object is looked for
     Coast good_[2];  // the last, and the one before: older than what made the events mismatch
     std::int64_t grip_lost_us_ = 0;
     std::int64_t acquisition_began_us_ = 0;
