@@ -84,7 +84,7 @@ class BadInput(SystemTest):
         self.service("tracker")
         path = self.path("model_bad.csv")
         with open(path, "w") as file:
-            file.write("x_px,y_px\n0,0\n1,0\n0,1\n")
+            file.write("x_px,y_px\n0,0\n20,0\n0,20\n")
         self.ctl("model", "register", path + "@10,10,0", "--set", "gate_px=-1", code=1)
         self.assertIn("gate_px", self.ctl_err)
         self.ctl("strategy", "set", "no_such_strategy", code=1)

@@ -6,11 +6,13 @@
 namespace pursuit::tracker {
 namespace {
 
+constexpr double widest_gate_px = 30;
 constexpr double narrowest_gate_px = 4;
 constexpr double gate_per_residual = 3;
 
 // Coarser than for tracking: what counts is to arrive.
 ObjectParameters arriving(ObjectParameters parameters) {
+    parameters.gate_px = widest_gate_px;
     parameters.gradient_position_gain = 0.03;
     parameters.gradient_angle_gain_rad_px2 = 5e-5;
     parameters.gradient_scale_gain_1_px = 1e-4;
@@ -25,13 +27,12 @@ Acquisition::Acquisition(const RegisteredObject& object)
       estimator_(object.transform, object.shape, parameters_, GradientEstimator::Pull::contour),
       cover_(Contour(object.shape)) {}
 
-void Acquisition::begin(const Pose& pose, double gate_px) {
-    widest_gate_px_ = gate_px;
+void Acquisition::begin(const Pose& pose) {
     estimator_.restart(pose, {});
     health_.restart();
     cover_.restart();
-    residual_px_ = gate_px / gate_per_residual;
-    set_gate(gate_px);
+    residual_px_ = widest_gate_px / gate_per_residual;
+    set_gate(widest_gate_px);
 }
 
 void Acquisition::set_gate(double gate_px) {
@@ -56,7 +57,7 @@ void Acquisition::take() {
         }
     }
     residual_px_ += 0.01 * (distance_px_ - residual_px_);
-    set_gate(std::clamp(gate_per_residual * residual_px_, narrowest_gate_px, widest_gate_px_));
+    set_gate(std::clamp(gate_per_residual * residual_px_, narrowest_gate_px, widest_gate_px));
 }
 
 }  // namespace pursuit::tracker

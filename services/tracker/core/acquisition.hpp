@@ -13,8 +13,7 @@ class Acquisition {
  public:
     Acquisition(const RegisteredObject& object);
 
-    /// Takes events up to `gate_px` from the contour to begin with.
-    void begin(const Pose& pose, double gate_px);
+    void begin(const Pose& pose);
 
     Approach approach(const Event& event);
     /// Uses the event that approach() was asked for last.
@@ -37,7 +36,6 @@ class Acquisition {
     std::int32_t piece_ = -1;
     std::int64_t t_us_ = 0;
     double distance_px_ = 0;
-    double widest_gate_px_ = 0;
     double residual_px_ = 0;
 };
 

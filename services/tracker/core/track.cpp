@@ -14,9 +14,9 @@ constexpr std::int64_t keep_every_us = 30'000;
 // How often the acquisition begins again at the coasted pose.
 constexpr std::int64_t acquisition_us = 150'000;
 
-// A given start is looked for this near; what was lost, as far as the descent reaches.
-constexpr double start_gate_px = 8;
-constexpr double lost_gate_px = 30;
+// The events must speak against the pose for this long without a break: models taken from a real
+// recording, and the first moments of slow objects among noise, do so for a while.
+constexpr std::int64_t let_go_after_us = 100'000;
 
 // In silence nothing tells that the object is still there.
 constexpr double sure_s = 0.1;
@@ -45,7 +45,7 @@ void Track::replace(const RegisteredObject& object) {
     const PoseRecord last = record(last_event_t_us_);
     make_for(object);
     estimator_->restart(constrained(last.pose, transform_), last.velocity);
-    if (is_acquiring_) acquisition_->begin(constrained(last.pose, transform_), reach_px_);
+    if (is_acquiring_) acquisition_->begin(constrained(last.pose, transform_));
     for (Coast& good : good_) good.pose = constrained(good.pose, transform_);
 }
 
@@ -58,13 +58,12 @@ void Track::set_parameters(const ObjectParameters& parameters, const TrackerPara
 void Track::restart(const RegisteredObject& object) {
     make_for(object);
     is_searching_ = object.start.search;
-    is_acquiring_ = true;
+    is_acquiring_ = false;
     is_fresh_ = true;
+    against_since_us_ = -1;
     health_.restart();
     cover_->restart();
     estimator_->restart(object.start.pose, object.start.velocity);
-    reach_px_ = start_gate_px;
-    acquisition_->begin(object.start.pose, reach_px_);
     for (Coast& good : good_) good = {-1, object.start.pose, object.start.velocity};
 }
 
@@ -88,11 +87,19 @@ void Track::remember_good(std::int64_t t_us) {
 
 void Track::lose_grip(std::int64_t t_us) {
     is_acquiring_ = true;
-    reach_px_ = lost_gate_px;
+    against_since_us_ = -1;
     grip_lost_us_ = t_us;
     if (good_[1].t_us < 0) good_[1].t_us = t_us;
     acquisition_began_us_ = t_us;
-    acquisition_->begin(coasted(t_us), reach_px_);
+    acquisition_->begin(coasted(t_us));
+}
+
+std::int64_t Track::speaks_against_for(std::int64_t t_us) {
+    const bool against =
+        health_.is_settled() && health_.is_against(parameters_.let_go_sharpness, cover_->share());
+    if (!against) against_since_us_ = -1;
+    if (against && against_since_us_ < 0) against_since_us_ = t_us;
+    return against ? t_us - against_since_us_ : 0;
 }
 
 void Track::acquire(std::int64_t t_us) {
@@ -116,10 +123,6 @@ Pose Track::pose() const { return is_acquiring_ ? acquisition_->pose() : estimat
 
 Approach Track::approach(const Event& event, std::int64_t since_same_us) {
     if (is_searching_) return {};
-    if (std::exchange(is_fresh_, false)) {
-        grip_lost_us_ = acquisition_began_us_ = event.t_us;
-        for (Coast& good : good_) good.t_us = event.t_us;
-    }
     if (!is_acquiring_) {
         const Approach near = estimator_->approach(event, since_same_us);
         distance_px_ = near.contour_px;
@@ -127,23 +130,21 @@ Approach Track::approach(const Event& event, std::int64_t since_same_us) {
         return near;
     }
     const bool is_coasting = seconds(event.t_us - grip_lost_us_) < tracker_.coast_s;
-    // What was never held has no pose to coast from: the descent goes on from where it is.
-    if (reach_px_ > start_gate_px && is_coasting &&
-        event.t_us - acquisition_began_us_ > acquisition_us) {
+    if (is_coasting && event.t_us - acquisition_began_us_ > acquisition_us) {
         acquisition_began_us_ = event.t_us;
-        acquisition_->begin(coasted(event.t_us), reach_px_);
+        acquisition_->begin(coasted(event.t_us));
     }
     return acquisition_->approach(event);
 }
 
 bool Track::take(const Event& event, double weight) {
+    is_fresh_ = false;
     if (is_acquiring_) {
         acquisition_->take();
         if (acquisition_->is_done()) acquire(event.t_us);
     } else {
         health_.count(distance_px_, parameters_.gate_px, event.t_us);
-        if (parameters_.let_go_sharpness > 0 && health_.is_settled() &&
-            health_.is_against(parameters_.let_go_sharpness, cover_->share())) {
+        if (parameters_.let_go_sharpness > 0 && speaks_against_for(event.t_us) > let_go_after_us) {
             lose_grip(event.t_us);
             return false;
         }
@@ -153,7 +154,7 @@ bool Track::take(const Event& event, double weight) {
         if (piece_ >= 0 && distance_px_ < parameters_.gate_px / 4) {
             cover_->count(piece_, estimator_->pose(), estimator_->velocity());
         }
-        if (health_.is_fair()) remember_good(event.t_us);
+        if (health_.is_fair() && against_since_us_ < 0) remember_good(event.t_us);
     }
     last_event_t_us_ = event.t_us;
     ++events_used_;
@@ -185,7 +186,7 @@ PoseRecord Track::record(std::int64_t t_us) const {
     record.state = state_at(t_us);
     estimator_->describe(t_us, record);
     if (is_acquiring_) {
-        record.pose = reach_px_ > start_gate_px ? coasted(t_us) : acquisition_->pose();
+        record.pose = coasted(t_us);
         record.velocity = good_[1].velocity;
     }
     record.theta_rad = theta_rad(record.pose.a);

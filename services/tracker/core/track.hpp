@@ -58,6 +58,8 @@ class Track {
 
     void make_for(const RegisteredObject& object);
     void remember_good(std::int64_t t_us);
+    /// How long the events have spoken against the pose, now included, µs.
+    std::int64_t speaks_against_for(std::int64_t t_us);
     void lose_grip(std::int64_t t_us);
     void acquire(std::int64_t t_us);
     [[nodiscard]] Pose coasted(std::int64_t t_us) const;
@@ -76,8 +78,8 @@ class Track {
     std::int32_t piece_ = -1;
     bool is_searching_ = false;
     bool is_acquiring_ = false;
-    bool is_fresh_ = true;  // since the restart no event came
-    double reach_px_ = 0;   // how far off the object is looked for
+    bool is_fresh_ = true;  // since the restart no event was taken
+    std::int64_t against_since_us_ = -1;
     Coast good_[2];  // the last, and the one before: older than what made the events mismatch
     std::int64_t grip_lost_us_ = 0;
     std::int64_t acquisition_began_us_ = 0;
