@@ -75,7 +75,8 @@ TEST(OpenSource, needs_exactly_one_source_and_a_range_that_holds_time) {
     config.clear_scene();
     config.set_start_s(2);
     config.set_end_s(2);
-    EXPECT_THAT(open_source(config).error().message, HasSubstr("end_s: a range must end after it begins"));
+    EXPECT_THAT(open_source(config).error().message,
+                HasSubstr("end_s: a range must end after it begins"));
     config.set_end_s(1e300);
     EXPECT_THAT(open_source(config).error().message, HasSubstr("0 to 9e12 s"));
 }
