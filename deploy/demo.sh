@@ -91,7 +91,7 @@ sleep 2
 ctl strategy set closest
 
 wait "$sensor" || { cat "$work/sensor.log" >&2; exit 1; }
-kill -INT "$viewer"
+kill "$viewer"
 wait "$viewer" || true
 kill "$recorder"
 wait "$recorder" || { cat "$work/recorder.log" >&2; exit 1; }
