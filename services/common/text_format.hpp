@@ -20,7 +20,8 @@ Result<void> parse_text(std::string_view text, const std::string& name,
 /// Reads a file of Protobuf text, as parse_text(). At most 64 MiB.
 Result<void> read_text_file(const std::string& path, google::protobuf::Message& message);
 
-/// Applies "field.subfield=value" settings in order. A repeated field is appended to.
+/// Applies "field.subfield=value" settings in order. A repeated field is appended to;
+/// "field[2].subfield=value" changes the third of its messages.
 Result<void> apply_settings(const std::vector<std::string>& settings,
                             google::protobuf::Message& message);
 

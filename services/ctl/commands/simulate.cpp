@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "services/ctl/commands/offline_commands.hpp"
 #include "services/ctl/commands/report.hpp"
@@ -15,6 +17,7 @@ namespace {
 
 struct Options {
     std::string scene;
+    std::vector<std::string> settings;
     std::string events;
     std::string models;
     std::uint64_t seed = 1;
@@ -40,7 +43,7 @@ Result<sensor::SimulationSummary> write(const Options& options, const sensor::Sc
 }
 
 int simulate(Options& options) {
-    const auto scene = sensor::load_scene(options.scene);
+    const auto scene = sensor::load_scene(options.scene, options.settings);
     if (!scene) return report(scene.error(), exit_configuration);
     if (!options.models.empty()) options.files.models_dir = options.models;
     if (options.duration_s > 0) options.files.duration_s = options.duration_s;
@@ -64,6 +67,9 @@ std::string scene_help() {
 Run define_simulate(CLI::App& app) {
     auto options = std::make_shared<Options>();
     app.add_option("SCENE", options->scene, scene_help())->required();
+    app.add_option("--set", options->settings,
+                   "field=value over the scene, as sensor.threshold=0.3 or "
+                   "layer[0].trajectory.vx_px_s=20");
     app.add_option("--seed", options->seed, "Of the scene's choices and noise")
         ->capture_default_str();
     app.add_option("--events", options->events,

@@ -26,20 +26,27 @@ double draw(const disk::Interval& interval, Random& random) {
     return random.uniform(interval.low(), interval.high());
 }
 
-/// Settings that real cameras differ in.
+/// Settings that real cameras differ in, where the scene does not state them. Each is drawn in any
+/// case, so that stating one does not change the others.
 void vary(disk::SceneSensor& sensor, Random& random) {
-    sensor.set_threshold(random.uniform(0.2, 0.42));
-    sensor.set_mismatch(random.uniform(0.02, 0.06));
-    sensor.set_refractory_us(static_cast<std::uint32_t>(random.uniform(500, 1300)));
-    sensor.set_jitter_us(random.uniform(10, 60));
+    const double threshold = random.uniform(0.2, 0.42);
+    const double mismatch = random.uniform(0.02, 0.06);
+    const auto refractory_us = static_cast<std::uint32_t>(random.uniform(500, 1300));
+    const double jitter_us = random.uniform(10, 60);
+    if (!sensor.has_threshold()) sensor.set_threshold(threshold);
+    if (!sensor.has_mismatch()) sensor.set_mismatch(mismatch);
+    if (!sensor.has_refractory_us()) sensor.set_refractory_us(refractory_us);
+    if (!sensor.has_jitter_us()) sensor.set_jitter_us(jitter_us);
     sensor.set_noise_hz(sensor.noise_hz() * random.uniform(0.8, 1.2));
 }
 
-void vary(disk::SceneTrajectory& t, const disk::SceneVariation& variation, Random& random) {
+/// Returns how much larger the shape itself is drawn.
+double vary(disk::SceneTrajectory& t, const disk::SceneVariation& variation, Random& random) {
     t.set_x_px(t.x_px() + variation.position_px() * random.uniform(-1, 1));
     t.set_y_px(t.y_px() + variation.position_px() * random.uniform(-1, 1));
     t.set_theta_rad(t.theta_rad() + variation.angle_rad() * random.uniform(-1, 1));
-    t.set_scale(t.scale() * (1 + variation.size_share() * random.uniform(-1, 1)));
+    const double size = random.uniform(-1, 1);
+    t.set_scale(t.scale() * (1 + variation.scale_share() * size));
 
     const double speed = 1 + variation.speed_share() * random.uniform(-1, 1);
     const double turn = variation.direction() && random.chance(0.5) ? -speed : speed;
@@ -56,6 +63,7 @@ void vary(disk::SceneTrajectory& t, const disk::SceneVariation& variation, Rando
         if (variation.phase()) disc.set_phase_rad(disc.phase_rad() + random.uniform(0, two_pi));
     }
     if (t.has_wander()) t.mutable_wander()->set_speed_px_s(t.wander().speed_px_s() * speed);
+    return 1 + variation.size_share() * size;
 }
 
 /// A convex polygon: corners on an ellipse at uneven angles.
@@ -133,15 +141,26 @@ DrawnScene draw_scene(const Scene& checked, std::uint64_t seed) {
         Random layer_random(seed, first_layer_stream + static_cast<std::uint64_t>(i));
         disk::SceneTrajectory trajectory = description.trajectory();
         double delay_s = 0;
+        double size = 1;
         if (randomize) {
-            vary(trajectory, description.variation(), layer_random);
+            size = vary(trajectory, description.variation(), layer_random);
             delay_s = description.variation().delay_s() * layer_random.uniform();
+        }
+        // An isometry has no scale: what the trajectory states of one is the shape's size as well.
+        if (description.transform() == disk::SceneLayer::ISOMETRY) {
+            size *= trajectory.scale();
+            trajectory.set_scale(1);
         }
         DrawnLayer layer;
         layer.polygons =
             layer_polygons(description, drawn.background_reflectance, randomize, layer_random);
+        for (auto& polygon : layer.polygons) {
+            for (Point& vertex : polygon.vertices) vertex *= size;
+        }
         layer.trajectory = Trajectory(trajectory, delay_s, walk_s, layer_random);
         layer.camera_share = description.camera_share();
+        layer.from_us = std::llround(description.from_s() * 1e6);
+        if (description.has_to_s()) layer.to_us = std::llround(description.to_s() * 1e6);
         if (description.has_track()) {
             layer.tracked = TrackedShape{description.track(), next_id++, description.transform(),
                                          description.search(),

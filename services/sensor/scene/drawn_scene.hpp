@@ -27,7 +27,12 @@ struct DrawnLayer {
     std::vector<PaintedPolygon> polygons;  ///< Front to back.
     Trajectory trajectory;
     double camera_share = 1;
+    std::int64_t from_us = 0;        ///< It is there from here …
+    std::int64_t to_us = INT64_MAX;  ///< … to before here.
     std::optional<TrackedShape> tracked;
+
+    bool there(std::int64_t t_us) const { return t_us >= from_us && t_us < to_us; }
+    bool comes_or_goes() const { return from_us > 0 || to_us < INT64_MAX; }
 };
 
 /// A scene with everything settled that its seed decides, apart from the pixels themselves.

@@ -95,8 +95,8 @@ Problem tilt_problem(const disk::SceneLayer& layer, const std::string& where) {
     if (!tilted) return std::nullopt;
     double key_scale = 1;
     for (const auto& key : t.key()) key_scale = std::max(key_scale, key.scale());
-    const double size_share = layer.variation().size_share();
-    if (reach_px(layer) * t.scale() * key_scale * grow * (1 + size_share) > 0.5 * t.focal_px()) {
+    grow *= (1 + layer.variation().size_share()) * (1 + layer.variation().scale_share());
+    if (reach_px(layer) * t.scale() * key_scale * grow > 0.5 * t.focal_px()) {
         return where + ": a tilted layer must be smaller than half of focal_px";
     }
     return std::nullopt;
@@ -134,6 +134,9 @@ Problem layer_problem(const disk::SceneLayer& layer, const std::string& where) {
         if (layer.has_clutter()) return where + ": clutter cannot be tracked";
         if (!contour) return where + ": is tracked, but no polygon is its contour";
     }
+    if (layer.has_to_s() && layer.to_s() <= layer.from_s()) {
+        return where + ".to_s: is not after from_s";
+    }
     if (layer.variation().has_reflectance()) {
         const auto name = where + ".variation.reflectance";
         if (auto p = interval_problem(layer.variation().reflectance(), name, 0.01, 1)) return p;
@@ -167,9 +170,13 @@ Problem scene_problem(const disk::Scene& scene) {
 
 }  // namespace
 
-Result<Scene> parse_scene(std::string_view text, const std::string& name) {
+Result<Scene> parse_scene(std::string_view text, const std::string& name,
+                          const std::vector<std::string>& settings) {
     Scene scene;
     if (auto ok = parse_text(text, name, scene.description_); !ok) {
+        return tl::unexpected(ok.error());
+    }
+    if (auto ok = apply_settings(settings, scene.description_); !ok) {
         return tl::unexpected(ok.error());
     }
     if (const auto problem = scene_problem(scene.description_)) {
@@ -178,10 +185,11 @@ Result<Scene> parse_scene(std::string_view text, const std::string& name) {
     return scene;
 }
 
-Result<Scene> load_scene(const std::string& path_or_builtin_name) {
+Result<Scene> load_scene(const std::string& path_or_builtin_name,
+                         const std::vector<std::string>& settings) {
     for (const auto& builtin : builtin_scenes()) {
         if (builtin.name == path_or_builtin_name) {
-            return parse_scene(builtin.text, path_or_builtin_name);
+            return parse_scene(builtin.text, path_or_builtin_name, settings);
         }
     }
     const std::string& path = path_or_builtin_name;
@@ -198,7 +206,7 @@ Result<Scene> load_scene(const std::string& path_or_builtin_name) {
     if (!in) return fail(path + ": cannot be opened");
     const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     if (in.bad()) return fail(path + ": cannot be read");
-    return parse_scene(text, path);
+    return parse_scene(text, path, settings);
 }
 
 std::vector<std::string> list_builtin_scenes() {

@@ -27,6 +27,9 @@ constexpr std::int64_t longest_unseen_us = 5000;
 /// The pixels near moving edges are found anew after this many steps at the latest.
 constexpr std::int64_t longest_mark_steps = 16;
 
+/// Where nothing is seen.
+constexpr double away_px = 1e7;
+
 /// A step may be this much longer than wanted before it is tried again.
 constexpr double step_slack = 1.05;
 
@@ -60,14 +63,19 @@ SceneSimulator::SceneSimulator(const Scene& scene, std::uint64_t seed)
         const DrawnLayer& layer = drawn_.layers[i];
         LayerState state;
         const bool fixed =
-            layer.polygons.empty() || (layer.trajectory.constant() && drawn_.camera.constant());
+            layer.polygons.empty() ||
+            (layer.trajectory.constant() && drawn_.camera.constant() && !layer.comes_or_goes());
         state.motion = fixed ? LayerMotion::fixed : LayerMotion::moving;
         if (!layer.polygons.empty()) state.corners = bounding_corners(layer);
-        state.before = state.now = state.next = state.looked = state.marked =
-            image_from_layer(drawn_, layer, 0);
+        state.before = state.now = state.next = state.looked = state.marked = place_of(i, 0);
         edges_.place(i, state.now);
         layers_.push_back(std::move(state));
+        for (const auto t_us : {layer.from_us, layer.to_us}) {
+            if (t_us > 0 && t_us < INT64_MAX) changes_us_.push_back(t_us);
+        }
     }
+    std::sort(changes_us_.begin(), changes_us_.end());
+    changes_us_.erase(std::unique(changes_us_.begin(), changes_us_.end()), changes_us_.end());
     next_look_.assign(static_cast<std::size_t>(drawn_.geometry.width) * drawn_.geometry.height, 0);
     pixels_.emplace(drawn_.geometry, drawn_.sensor, seed, active_.brightness_of_all(edges_));
     mark();
@@ -75,6 +83,20 @@ SceneSimulator::SceneSimulator(const Scene& scene, std::uint64_t seed)
 
 std::vector<TruthRow> SceneSimulator::truth(std::int64_t t_us) const {
     return truth_at(drawn_, t_us);
+}
+
+/// image_from_layer; of a layer that is not there, one that takes it far out of the image.
+PlanarMap SceneSimulator::place_of(std::size_t layer, std::int64_t t_us) const {
+    if (!drawn_.layers[layer].there(t_us)) {
+        PlanarMap away;
+        away.matrix(0, 2) = away.matrix(1, 2) = away_px;
+        return away;
+    }
+    return image_from_layer(drawn_, drawn_.layers[layer], static_cast<double>(t_us) / 1e6);
+}
+
+std::int64_t SceneSimulator::next_change_us() const {
+    return next_change_ < changes_us_.size() ? changes_us_[next_change_] : INT64_MAX;
 }
 
 /// How far anything of the layer that is in the image moves between two maps: at most as far as
@@ -103,15 +125,19 @@ std::int64_t SceneSimulator::place_next() {
     const double wanted_px = drawn_.sensor.max_step_px();
     double step_us = static_cast<double>(std::min(2 * step_us_, longest_step_us));
     for (;;) {
-        const auto whole_us = std::max<std::int64_t>(static_cast<std::int64_t>(step_us), 1);
+        const auto whole_us =
+            std::min(std::max<std::int64_t>(static_cast<std::int64_t>(step_us), 1),
+                     next_change_us() - now_us_);
         const std::int64_t t_us = now_us_ + whole_us;
         double furthest_px = 0;
         for (std::size_t i = 0; i < layers_.size(); ++i) {
             LayerState& layer = layers_[i];
             if (layer.motion == LayerMotion::fixed) continue;
-            layer.next =
-                image_from_layer(drawn_, drawn_.layers[i], static_cast<double>(t_us) / 1e6);
-            layer.step_px = displacement_px(layer, layer.now, layer.next);
+            layer.next = place_of(i, t_us);
+            const DrawnLayer& drawn = drawn_.layers[i];
+            layer.step_px = drawn.there(now_us_) == drawn.there(t_us)
+                                ? displacement_px(layer, layer.now, layer.next)
+                                : 0;
             furthest_px = std::max(furthest_px, layer.step_px);
         }
         if (furthest_px <= wanted_px * step_slack || whole_us == 1) {
@@ -224,6 +250,29 @@ std::int64_t SceneSimulator::settled_us() const {
     return settled_us;
 }
 
+/// Every pixel looks just before a layer comes or goes, and just after.
+void SceneSimulator::come_and_go() {
+    const auto all_look = [&](std::int64_t since_us, std::int64_t t_us) {
+        const auto brightness = active_.brightness_of_all(edges_);
+        for (std::uint32_t i = 0; i < brightness.size(); ++i) {
+            pixels_->look(i, since_us, t_us, brightness[i], pending_);
+        }
+    };
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+        edges_.place(i, place_of(i, now_us_ - 1));
+    }
+    all_look(now_us_ - step_us_, now_us_ - 1);
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+        edges_.place(i, layers_[i].now);
+        layers_[i].looked = layers_[i].now;
+        layers_[i].looks_us.fill(now_us_);
+    }
+    all_look(now_us_ - 1, now_us_);
+    std::fill(next_look_.begin(), next_look_.end(), look_count_);
+    mark_until_us_ = now_us_;
+    ++next_change_;
+}
+
 void SceneSimulator::step() {
     now_us_ = place_next();
     for (LayerState& layer : layers_) {
@@ -231,6 +280,7 @@ void SceneSimulator::step() {
         layer.now = layer.next;
     }
     pixels_->noise(now_us_, pending_);
+    if (now_us_ == next_change_us()) come_and_go();
     const bool marking = mark_needed();
     if (marking) mark();
     look(marking);

@@ -20,7 +20,8 @@ namespace pursuit::sensor {
 ///
 /// Time goes in steps within which nothing moves by more than SceneSensor.max_step_px. In each step
 /// the pixels near moving edges look at their exact, antialiased brightness; the others see no
-/// change. A layer that moves slowly beside a fast one is looked at less often.
+/// change. A layer that moves slowly beside a fast one is looked at less often. When a layer comes
+/// or goes every pixel looks.
 ///
 /// The same scene and seed give the same events, however they are cut into slices. Memory is
 /// bounded by the size of the pixel array, the length of the contours in it, and the events of one
@@ -69,7 +70,10 @@ class SceneSimulator {
     };
 
     double displacement_px(const LayerState& layer, const PlanarMap& a, const PlanarMap& b) const;
+    PlanarMap place_of(std::size_t layer, std::int64_t t_us) const;
+    std::int64_t next_change_us() const;
     void step();
+    void come_and_go();
     std::int64_t settled_us() const;
     std::int64_t place_next();
     bool mark_needed() const;
@@ -86,6 +90,8 @@ class SceneSimulator {
     std::vector<LayerState> layers_;
     std::optional<PixelArray> pixels_;
 
+    std::vector<std::int64_t> changes_us_;  // when layers come or go, ascending, each once
+    std::size_t next_change_ = 0;
     std::int64_t now_us_ = 0;         // the last step
     std::int64_t step_us_ = 1;        // its length
     std::int64_t mark_until_us_ = 0;  // when the active pixels are found anew at the latest

@@ -43,10 +43,17 @@ void set_pose(TruthRow& row, const PlanarMap& image_from_layer, const ContourMod
         image_model += p * m.transpose();
         model_model += m * m.transpose();
     }
-    mean /= static_cast<double>(model.points.size());
+    const auto count = static_cast<double>(model.points.size());
+    mean /= count;
+    const Eigen::Matrix2d a = image_model * model_model.inverse();
     row.x_px = mean.x();
     row.y_px = mean.y();
-    set_linear(row, image_model * model_model.inverse());
+    set_linear(row, a);
+    double sum_px2 = 0;
+    for (const Point& m : model.points) {
+        sum_px2 += (image_from_layer * Point(m + model.centre) - a * m - mean).squaredNorm();
+    }
+    row.fit_px = std::sqrt(sum_px2 / count);
 }
 
 /// A polygon in the image with its bounding box.
@@ -74,6 +81,7 @@ std::vector<TruthRow> truth_at(const DrawnScene& scene, std::int64_t t_us) {
     std::vector<Cover> front;
     for (auto layer = scene.layers.begin(); layer != last_tracked.base(); ++layer) {
         const PlanarMap map = image_from_layer(scene, *layer, t_s);
+        const bool there = layer->there(t_us - scene.sensor.latency_us());
         if (layer->tracked) {
             const auto& tracked = *layer->tracked;
             TruthRow row;
@@ -86,12 +94,13 @@ std::vector<TruthRow> truth_at(const DrawnScene& scene, std::int64_t t_us) {
                 const Point p = map * Point(m + tracked.model.centre);
                 const bool in_image = p.x() >= -0.5 && p.x() < scene.geometry.width - 0.5 &&
                                       p.y() >= -0.5 && p.y() < scene.geometry.height - 0.5;
-                visible += in_image && !covers(front, p) ? 1 : 0;
+                visible += there && in_image && !covers(front, p) ? 1 : 0;
             }
             row.visible_fraction =
                 static_cast<double>(visible) / static_cast<double>(tracked.model.points.size());
             rows.push_back(row);
         }
+        if (!there) continue;
         for (const auto& polygon : layer->polygons) {
             Cover cover;
             for (const Point& v : polygon.vertices) cover.vertices.push_back(map * v);

@@ -25,6 +25,7 @@ struct TruthRow {
     double scale_x = 1;    ///< Along the model's own axes: lengths of A's columns.
     double scale_y = 1;
     double visible_fraction = 0;  ///< Of its points: inside the image, under no layer in front.
+    double fit_px = 0;            ///< rms over its points: how far the view is from that A.
 };
 
 /// A tracked shape as it is given to a tracker.

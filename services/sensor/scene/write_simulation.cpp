@@ -38,28 +38,45 @@ std::string edges_csv(const ContourModel& model) {
     return csv;
 }
 
+/// As the tracker calls it.
+const char* transform_name(disk::SceneLayer::Transform transform) {
+    switch (transform) {
+        case disk::SceneLayer::ISOMETRY:
+            return "isometry";
+        case disk::SceneLayer::SIMILARITY:
+            return "similarity";
+        case disk::SceneLayer::PAPER_AFFINE:
+            return "paper_affine";
+        case disk::SceneLayer::FULL_AFFINE:
+            return "full_affine";
+    }
+    return "";
+}
+
 std::string start_csv(const std::vector<SceneModel>& models, Geometry geometry) {
     std::string csv =
-        "object,x_px,y_px,theta_rad,scale,mode,error_x_px,error_y_px,error_theta_rad,error_scale\n";
+        "object,x_px,y_px,theta_rad,scale,mode,error_x_px,error_y_px,error_theta_rad,error_scale,"
+        "transform\n";
     for (const auto& m : models) {
+        const char* transform = transform_name(m.transform);
         if (m.search) {
-            print(csv, "%s,%.3f,%.3f,0,1,search,,,,\n", m.name.c_str(), geometry.width / 2.0,
-                  geometry.height / 2.0);
+            print(csv, "%s,%.3f,%.3f,0,1,search,,,,,%s\n", m.name.c_str(), geometry.width / 2.0,
+                  geometry.height / 2.0, transform);
         } else {
-            print(csv, "%s,%.6f,%.6f,%.8f,%.8f,pose,%.6f,%.6f,%.8f,%.8f\n", m.name.c_str(),
+            print(csv, "%s,%.6f,%.6f,%.8f,%.8f,pose,%.6f,%.6f,%.8f,%.8f,%s\n", m.name.c_str(),
                   m.start.x_px, m.start.y_px, m.start.theta_rad,
                   (m.start.scale_x + m.start.scale_y) / 2, m.error_x_px, m.error_y_px,
-                  m.error_theta_rad, m.error_scale);
+                  m.error_theta_rad, m.error_scale, transform);
         }
     }
     return csv;
 }
 
 void print_truth(std::string& csv, const TruthRow& row) {
-    print(csv, "%lld,%u,%s,%.6f,%.6f,%.9f,%.9f,%.9f,%.9f,%.8f,%.8f,%.8f,%.4f\n",
+    print(csv, "%lld,%u,%s,%.6f,%.6f,%.9f,%.9f,%.9f,%.9f,%.8f,%.8f,%.8f,%.4f,%.4f\n",
           static_cast<long long>(row.t_us), row.object_id, row.model.c_str(), row.x_px, row.y_px,
           row.a00, row.a01, row.a10, row.a11, row.theta_rad, row.scale_x, row.scale_y,
-          row.visible_fraction);
+          row.visible_fraction, row.fit_px);
 }
 
 Result<void> write_models_of(const SceneSimulator& simulator, const std::string& folder) {
@@ -106,7 +123,7 @@ Result<SimulationSummary> write_simulation(const Scene& scene, std::uint64_t see
     std::ofstream truth(files.truth_path, std::ios::binary | std::ios::trunc);
     std::string csv =
         "t_us,object_id,model,x_px,y_px,a00,a01,a10,a11,theta_rad,scale_x,scale_y,"
-        "visible_fraction\n";
+        "visible_fraction,fit_px\n";
     const auto write_truth = [&] {
         truth << csv;
         csv.clear();

@@ -18,13 +18,13 @@ using EventSink = std::function<Result<void>(std::span<const Event>)>;
 
 struct SimulationFiles {
     /// Truth every 1 ms: t_us,object_id,model,x_px,y_px,a00,a01,a10,a11,theta_rad,scale_x,scale_y,
-    /// visible_fraction.
+    /// visible_fraction,fit_px.
     std::string truth_path;
 
     /// A folder, made where missing, for model_<name>.csv (x_px,y_px about the centre of gravity),
     /// model_<name>_edges.csv (from,to), model_true_<name>.csv where models carry click errors, and
     /// start.csv (object,x_px,y_px,theta_rad,scale,mode,error_x_px,error_y_px,error_theta_rad,
-    /// error_scale; mode is pose or search).
+    /// error_scale,transform; mode is pose or search).
     std::optional<std::string> models_dir;
 
     /// Instead of the scene's own; an endless scene needs one.

@@ -133,7 +133,9 @@ std::vector<Event> brute_force(const Scene& scene, std::int64_t step_us, std::in
     const auto look = [&](std::int64_t t_us) {
         for (std::size_t i = 0; i < drawn.layers.size(); ++i) {
             const double t_s = static_cast<double>(t_us) / 1e6;
-            edges.place(i, image_from_layer(drawn, drawn.layers[i], t_s));
+            PlanarMap map = image_from_layer(drawn, drawn.layers[i], t_s);
+            if (!drawn.layers[i].there(t_us)) map.matrix(0, 2) = 1e6;
+            edges.place(i, map);
         }
         return all.brightness_of_all(edges);
     };
@@ -216,6 +218,40 @@ TEST(SceneSimulator, leaves_out_no_look_that_matters_where_slow_and_fast_layers_
         "layer { shape { kind: CAR size_px: 40 reflectance: 0.1 } trajectory { x_px: 60 y_px: 20 "
         "vx_px_s: 12 } }");
     expect_the_same(all_events(scene, 1, 5000), brute_force(scene, 200, 400000), 150);
+}
+
+TEST(SceneSimulator, leaves_out_no_look_that_matters_where_layers_come_and_go) {
+    const Scene scene = scene_of(
+        "name: \"s\" duration_s: 0.2 background_reflectance: 0.4 sensor { " + ideal_sensor +
+        " refractory_us: 900 width: 80 height: 60 } "
+        "layer { to_s: 0.1 shape { kind: VAN size_px: 50 reflectance: 0.9 } trajectory { x_px: 30 "
+        "y_px: 28 vx_px_s: 100 } } "
+        "layer { from_s: 0.06 shape { kind: STAR size_px: 20 reflectance: 0.1 } trajectory { "
+        "x_px: 50 y_px: 30 omega_rad_s: 4 } } ");
+    const auto events = all_events(scene, 1, 5000);
+    // In brute force a change lasts its whole step.
+    expect_the_same(events, brute_force(scene, 50, 200000), 100);
+    const auto at = [&](std::int64_t t_us) {
+        return std::count_if(events.begin(), events.end(),
+                             [&](const Event& e) { return e.t_us >= t_us - 1 && e.t_us <= t_us; });
+    };
+    EXPECT_GT(at(60000), 100);  // the van hides most of the star
+    EXPECT_GT(at(100000), 300);
+    EXPECT_LT(at(80000), 50);
+}
+
+TEST(SceneSimulator, counts_what_is_not_there_as_hidden_and_lets_it_hide_nothing) {
+    const Scene scene = scene_of(
+        "name: \"s\" duration_s: 1 sensor { " + ideal_sensor +
+        " } layer { track: \"front\" to_s: 0.5 shape { kind: RECTANGLE size_px: 28 } trajectory { "
+        "x_px: 32 y_px: 16 } } layer { track: \"behind\" shape { kind: STAR size_px: 10 } "
+        "trajectory "
+        "{ x_px: 32 y_px: 16 } }");
+    const SceneSimulator simulator(scene, 1);
+    EXPECT_EQ(simulator.truth(499999)[0].visible_fraction, 1);
+    EXPECT_EQ(simulator.truth(499999)[1].visible_fraction, 0);
+    EXPECT_EQ(simulator.truth(500000)[0].visible_fraction, 0);
+    EXPECT_EQ(simulator.truth(500000)[1].visible_fraction, 1);
 }
 
 TEST(SceneSimulator, hides_what_is_behind_a_layer_in_front) {

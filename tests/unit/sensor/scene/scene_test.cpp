@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -61,6 +62,66 @@ TEST(LoadScene, reads_a_file) {
     std::filesystem::remove(path);
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->description().name(), "mine");
+}
+
+TEST(LoadScene, gives_an_isometry_truth_of_scale_1_and_the_drawn_size_in_its_model) {
+    for (const auto& name : list_builtin_scenes()) {
+        const auto scene = *load_scene(name);
+        for (const std::uint64_t seed : {1, 2, 3}) {
+            const SceneSimulator simulator(scene, seed);
+            for (const auto& model : simulator.models()) {
+                if (model.transform != disk::SceneLayer::ISOMETRY) continue;
+                EXPECT_NEAR(model.start.scale_x, 1, 1e-9) << name;
+                EXPECT_NEAR(model.start.scale_y, 1, 1e-9) << name;
+            }
+        }
+    }
+    const auto radius_px = [](std::uint64_t seed) {
+        const SceneSimulator simulator(*load_scene("star_670rpm"), seed);
+        double radius = 0;
+        for (const Point& p : simulator.models()[0].model.points) {
+            radius = std::max(radius, p.norm());
+        }
+        return radius;
+    };
+    EXPECT_NEAR(radius_px(1), 27, 0.15 * 27 + 1e-6);
+    EXPECT_GT(std::abs(radius_px(1) - radius_px(2)), 1e-3);
+}
+
+TEST(LoadScene, leaves_to_the_pose_the_scale_that_it_has_to_find) {
+    const auto scale = [](std::uint64_t seed) {
+        return SceneSimulator(*load_scene("appear"), seed).truth(0)[0].scale_x;
+    };
+    EXPECT_GT(std::abs(scale(1) - scale(2)), 1e-3);
+}
+
+TEST(LoadScene, applies_settings_over_what_the_scene_states) {
+    const auto scene =
+        load_scene("star_670rpm", {"sensor.threshold=0.5", "layer[0].trajectory.disc.rpm=900",
+                                   "layer[0].variation.speed_share=0", "sensor.refractory_us=1"});
+    ASSERT_TRUE(scene) << scene.error().message;
+    for (const std::uint64_t seed : {1, 2}) {
+        const SceneSimulator simulator(*scene, seed);
+        EXPECT_EQ(simulator.drawn().sensor.threshold(), 0.5);
+        EXPECT_EQ(simulator.drawn().sensor.refractory_us(), 1U);
+        const auto turn = simulator.truth(1000)[0].theta_rad - simulator.truth(0)[0].theta_rad;
+        EXPECT_NEAR(std::abs(std::remainder(turn, 2 * M_PI)), 2 * M_PI * 900 / 60 / 1000, 1e-6);
+    }
+    EXPECT_NE(SceneSimulator(*scene, 1).drawn().sensor.mismatch(),
+              SceneSimulator(*scene, 2).drawn().sensor.mismatch());
+}
+
+TEST(LoadScene, says_which_setting_is_wrong_and_what_makes_the_scene_impossible) {
+    const auto wrong = load_scene("star_670rpm", {"sensor.threshold=9"});
+    ASSERT_FALSE(wrong);
+    EXPECT_THAT(wrong.error().message, HasSubstr("sensor.threshold=9"));
+    EXPECT_THAT(wrong.error().message, HasSubstr("at most 3"));
+    const auto layer = load_scene("star_670rpm", {"layer[1].to_s=1"});
+    ASSERT_FALSE(layer);
+    EXPECT_THAT(layer.error().message, HasSubstr("there are 1 of field"));
+    const auto never = load_scene("star_670rpm", {"layer[0].to_s=0"});
+    ASSERT_FALSE(never);
+    EXPECT_THAT(never.error().message, HasSubstr("to_s"));
 }
 
 TEST(ParseScene, names_file_and_line_of_an_unknown_field) {

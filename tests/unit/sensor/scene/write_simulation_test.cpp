@@ -70,7 +70,7 @@ TEST_F(WriteSimulation, writes_truth_every_millisecond_and_all_events_in_order) 
     ASSERT_EQ(truth.size(), 52U);
     EXPECT_EQ(truth[0],
               "t_us,object_id,model,x_px,y_px,a00,a01,a10,a11,theta_rad,scale_x,scale_y,"
-              "visible_fraction");
+              "visible_fraction,fit_px");
     EXPECT_THAT(truth[1], StartsWith("0,1,star,100.000000,90.000000,1.000000000,"));
     // 0.05 s later: 2 px to the right, turned by 0.1 rad.
     EXPECT_THAT(truth[51], StartsWith("50000,1,star,102.000000,90.000000,0.995004165,-0.099833417,"
