@@ -14,36 +14,45 @@ class RangeReader final : public EventReader {
         : source_(std::move(source)), range_(range) {}
 
     Geometry geometry() const override { return source_->geometry(); }
+    bool has_exposures() const override { return source_->has_exposures(); }
 
  protected:
-    Decoded decode(std::span<Event> events) override {
-        const auto before = [](const Event& event, std::int64_t t_us) { return event.t_us < t_us; };
-        while (!ended_) {
-            const auto count = source_->read(events);
-            if (!count) return {0, count.error()};
-            if (*count == 0) break;
-            auto first = events.begin();
-            auto last = first + static_cast<std::ptrdiff_t>(*count);
-            if (!started_) {
-                first = std::lower_bound(first, last, range_.start_us, before);
-                started_ = first != last;
-            }
-            if (range_.end_us != 0) {
-                const auto stop = std::lower_bound(first, last, range_.end_us, before);
-                ended_ = stop != last;
-                last = stop;
-            }
-            if (first == last) continue;
-            if (first != events.begin()) std::move(first, last, events.begin());
-            return {static_cast<std::size_t>(last - first), {}};
+    Decoded decode(std::span<Event> events, std::span<Event> exposures) override {
+        Decoded done;
+        if (ended_) return done;
+        const auto batch = source_->read(events, exposures);
+        if (!batch) {
+            done.error = batch.error();
+            return done;
         }
-        return {};
+        done.count = cut(events.first(batch->events));
+        done.exposures = cut(exposures.first(batch->exposures));
+        done.skipped = source_->events_skipped() - events_skipped();
+        done.time_us = source_->time_us();
+        if (range_.end_us != 0 && done.time_us >= range_.end_us) {
+            ended_ = true;
+            done.time_us = range_.end_us;
+        }
+        done.goes_on = !batch->at_end && !ended_;
+        return done;
     }
 
  private:
+    /// Moves what is in the range to the front and returns how many there are.
+    std::size_t cut(std::span<Event> block) const {
+        const auto at = [&](std::int64_t t_us) {
+            return std::lower_bound(
+                block.begin(), block.end(), t_us,
+                [](const Event& event, std::int64_t time_us) { return event.t_us < time_us; });
+        };
+        const auto first = at(range_.start_us);
+        const auto last = range_.end_us == 0 ? block.end() : at(range_.end_us);
+        if (first != block.begin()) std::move(first, last, block.begin());
+        return static_cast<std::size_t>(last - first);
+    }
+
     std::unique_ptr<EventReader> source_;
     TimeRange range_;
-    bool started_ = false;
     bool ended_ = false;
 };
 

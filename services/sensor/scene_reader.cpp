@@ -11,7 +11,7 @@ constexpr std::int64_t longest_silence_us = 3'600'000'000;
 
 }  // namespace
 
-EventReader::Decoded SceneReader::decode(std::span<Event> events) {
+EventReader::Decoded SceneReader::decode(std::span<Event> events, std::span<Event> /*exposures*/) {
     if (taken_ == slice_.size()) {
         slice_.clear();
         taken_ = 0;
@@ -23,7 +23,9 @@ EventReader::Decoded SceneReader::decode(std::span<Event> events) {
     const auto count = std::min(events.size(), slice_.size() - taken_);
     std::copy_n(slice_.begin() + static_cast<std::ptrdiff_t>(taken_), count, events.begin());
     taken_ += count;
-    return {count, std::nullopt};
+    Decoded done;
+    done.count = count;
+    return done;
 }
 
 Result<std::unique_ptr<EventReader>> open_scene(const std::string& scene, std::uint64_t seed) {

@@ -21,7 +21,7 @@ class SceneReader final : public EventReader {
     Geometry geometry() const override { return simulator_.geometry(); }
 
  protected:
-    Decoded decode(std::span<Event> events) override;
+    Decoded decode(std::span<Event> events, std::span<Event> exposures) override;
 
  private:
     SceneSimulator simulator_;

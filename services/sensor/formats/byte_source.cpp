@@ -49,6 +49,8 @@ class MemorySource final : public ByteSource {
         return n;
     }
 
+    std::optional<std::span<const std::uint8_t>> in_memory() const override { return rest_; }
+
  private:
     std::string name_;
     std::span<const std::uint8_t> rest_;
@@ -70,26 +72,42 @@ std::unique_ptr<ByteSource> from_memory(std::string name, std::span<const std::u
 }
 
 ByteWindow::ByteWindow(std::unique_ptr<ByteSource> source, std::size_t capacity)
-    : source_(std::move(source)), buffer_(capacity) {}
-
-Result<std::span<const std::uint8_t>> ByteWindow::ahead(std::size_t wanted) {
-    wanted = std::min(wanted, buffer_.size());
-    if (end_ - begin_ < wanted && begin_ > 0) {
-        std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
-        end_ -= std::exchange(begin_, 0);
+    : source_(std::move(source)) {
+    if (const auto bytes = source_->in_memory()) {
+        ahead_ = *bytes;
+        at_end_ = true;
+    } else {
+        buffer_.resize(capacity);
+        ahead_ = std::span(buffer_).first(0);
     }
-    while (end_ - begin_ < wanted && !at_end_) {
-        const auto n = source_->read(std::span(buffer_).subspan(end_));
-        if (!n) return tl::unexpected(n.error());
-        end_ += *n;
-        at_end_ = *n == 0;
-    }
-    return std::span<const std::uint8_t>(buffer_).subspan(begin_, end_ - begin_);
 }
 
-void ByteWindow::consume(std::size_t count) {
-    begin_ += count;
-    offset_ += count;
+Result<void> ByteWindow::fetch(std::size_t wanted) {
+    wanted = std::min(wanted, buffer_.size());
+    if (ahead_.data() != buffer_.data()) {
+        std::memmove(buffer_.data(), ahead_.data(), ahead_.size());
+        ahead_ = std::span(buffer_).first(ahead_.size());
+    }
+    while (ahead_.size() < wanted && !at_end_) {
+        const auto n = source_->read(std::span(buffer_).subspan(ahead_.size()));
+        if (!n) return tl::unexpected(n.error());
+        ahead_ = std::span(buffer_).first(ahead_.size() + *n);
+        at_end_ = *n == 0;
+    }
+    return {};
+}
+
+Result<std::string_view> ByteWindow::line(std::size_t longest) {
+    for (std::size_t seen = 0;;) {
+        const auto bytes = ahead(seen + 1);
+        if (!bytes) return tl::unexpected(bytes.error());
+        const std::string_view text(reinterpret_cast<const char*>(bytes->data()),
+                                    std::min(bytes->size(), longest));
+        const auto end = text.find('\n', seen);
+        if (end != std::string_view::npos) return text.substr(0, end + 1);
+        if (text.size() == seen || text.size() == longest) return text;
+        seen = text.size();
+    }
 }
 
 }  // namespace pursuit::sensor

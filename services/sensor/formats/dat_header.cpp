@@ -18,8 +18,8 @@ constexpr int largest_side = 1 << 14;  // an event has 14 bits for x and for y
 
 /// The next word of `line`, which loses it.
 std::string_view take_word(std::string_view& line) {
-    const auto begin = std::min(line.find_first_not_of(" \t:\r"), line.size());
-    const auto end = std::min(line.find_first_of(" \t:\r", begin), line.size());
+    const auto begin = std::min(line.find_first_not_of(" \t:\r\n"), line.size());
+    const auto end = std::min(line.find_first_of(" \t:\r\n", begin), line.size());
     const auto word = line.substr(begin, end - begin);
     line.remove_prefix(end);
     return word;
@@ -75,25 +75,24 @@ Result<void> read_type_and_size(ByteWindow& bytes) {
 Result<DatHeader> read_dat_header(ByteWindow& bytes) {
     Fields fields;
     for (int lines = 0;; ++lines) {
-        const auto ahead = bytes.ahead(longest_line);
-        if (!ahead) return tl::unexpected(ahead.error());
-        if (ahead->empty() || ahead->front() != '%') {
+        const auto first = bytes.ahead(1);
+        if (!first) return tl::unexpected(first.error());
+        if (first->empty() || first->front() != '%') {
             if (lines == 0) return DatHeader{};
             break;
         }
-        const std::string_view text(reinterpret_cast<const char*>(ahead->data()),
-                                    std::min(ahead->size(), longest_line));
-        const auto line_end = text.find('\n');
-        if (line_end == std::string_view::npos || lines == most_lines) {
-            return tl::unexpected(error_at(bytes.name(), bytes.offset(),
-                                           line_end == std::string_view::npos
-                                               ? "a header line does not end"
-                                               : "more than 1000 header lines"));
+        const auto line = bytes.line(longest_line);
+        if (!line) return tl::unexpected(line.error());
+        const bool ends = line->back() == '\n';
+        if (!ends || lines == most_lines) {
+            return tl::unexpected(
+                error_at(bytes.name(), bytes.offset(),
+                         ends ? "more than 1000 header lines" : "a header line does not end"));
         }
-        if (auto ok = read_field(text.substr(1, line_end - 1), fields); !ok) {
+        if (auto ok = read_field(line->substr(1), fields); !ok) {
             return tl::unexpected(error_at(bytes.name(), bytes.offset(), ok.error().message));
         }
-        bytes.consume(line_end + 1);
+        bytes.consume(line->size());
     }
     if ((fields.width == 0) != (fields.height == 0)) {
         return tl::unexpected(error_at(bytes.name(), bytes.offset(),

@@ -49,31 +49,28 @@ class DatReader final : public EventReader {
     Geometry geometry() const override { return geometry_; }
 
  protected:
-    Decoded decode(std::span<Event> events) override {
+    Decoded decode(std::span<Event> events, std::span<Event> /*exposures*/) override {
         Decoded done;
-        while (done.count < events.size()) {
-            const auto ahead = bytes_.ahead(event_bytes);
-            if (!ahead) {
-                done.error = ahead.error();
-                return done;
-            }
-            const auto whole = ahead->size() / event_bytes;
-            if (whole == 0) {
-                if (!ahead->empty()) {
-                    done.error = error_at(bytes_.name(), bytes_.offset(),
-                                          "the file ends within an event, after " +
-                                              std::to_string(ahead->size()) + " of 8 bytes");
-                }
-                return done;
-            }
-            const auto wanted = std::min({whole, events.size() - done.count, block_events});
-            const auto good = decode_block(ahead->data(), events.subspan(done.count, wanted));
+        const auto ahead = bytes_.ahead(event_bytes);
+        if (!ahead) {
+            done.error = ahead.error();
+            return done;
+        }
+        const auto whole = ahead->size() / event_bytes;
+        if (whole == 0 && !ahead->empty()) {
+            done.error = error_at(bytes_.name(), bytes_.offset(),
+                                  "the file ends within an event, after " +
+                                      std::to_string(ahead->size()) + " of 8 bytes");
+        }
+        events = events.first(std::min(whole, events.size()));
+        const auto* bytes = ahead->data();
+        while (done.count < events.size() && !done.error) {
+            const auto wanted = std::min(events.size() - done.count, block_events);
+            const auto good = decode_block(bytes, events.subspan(done.count, wanted));
+            bytes += good * event_bytes;
             done.count += good;
             bytes_.consume(good * event_bytes);
-            if (good < wanted) {
-                done.error = describe(word_at(ahead->data() + good * event_bytes));
-                return done;
-            }
+            if (good < wanted) done.error = describe(word_at(bytes));
         }
         return done;
     }

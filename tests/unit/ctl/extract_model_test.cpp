@@ -23,11 +23,13 @@ class EventList final : public sensor::EventReader {
     Geometry geometry() const override { return {160, 120}; }
 
  protected:
-    Decoded decode(std::span<Event> out) override {
+    Decoded decode(std::span<Event> out, std::span<Event> /*exposures*/) override {
         const auto count = std::min(out.size(), events_.size() - next_);
         std::copy_n(events_.begin() + static_cast<std::ptrdiff_t>(next_), count, out.begin());
         next_ += count;
-        return {count, {}};
+        Decoded done;
+        done.count = count;
+        return done;
     }
 
  private:
