@@ -11,7 +11,8 @@ set -euo pipefail
 build=(git ca-certificates g++ cmake ninja-build ccache mold pkg-config
        libfastrtps-dev libfastcdr-dev fastddsgen libssl-dev libasio-dev libtinyxml2-dev
        libeigen3-dev libnanoflann-dev libprotobuf-dev protobuf-compiler
-       libcli11-dev libspdlog-dev libexpected-dev libzstd-dev zlib1g-dev libpng-dev libsystemd-dev)
+       libcli11-dev libspdlog-dev libexpected-dev libzstd-dev liblz4-dev zlib1g-dev
+       libflatbuffers-dev flatbuffers-compiler libpng-dev libsystemd-dev)
 test=(clang-14 clang-format-14 libclang-rt-14-dev libgtest-dev libgmock-dev libbenchmark-dev
       cyclonedds-dev cyclonedds-tools python3 python3-numpy systemd npm)
 

@@ -26,7 +26,8 @@ class DatWriter final : public EventWriter {
     Result<void> close() override { return file_.close(); }
 
  protected:
-    Result<void> encode(std::span<const Event> events) override {
+    Result<void> encode(std::span<const Event> events,
+                        std::span<const Event> /*exposures*/) override {
         for (const auto& event : events) {
             const bool wraps = event.t_us / wrap_us != last_t_us_ / wrap_us;
             if (wraps && event.t_us - last_t_us_ >= wrap_us / 2) {
@@ -52,7 +53,8 @@ class DatWriter final : public EventWriter {
 
 }  // namespace
 
-Result<std::unique_ptr<EventWriter>> create_dat(const std::string& path, Geometry geometry) {
+Result<std::unique_ptr<EventWriter>> create_dat(const std::string& path, Geometry geometry,
+                                                bool /*exposures*/) {
     if (geometry.width < 1 || geometry.height < 1 || geometry.width > largest_side ||
         geometry.height > largest_side) {
         return fail(path + ": DAT cannot hold " + std::to_string(geometry.width) + "x" +

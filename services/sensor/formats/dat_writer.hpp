@@ -12,7 +12,9 @@ namespace pursuit::sensor {
 ///
 /// Time is stored modulo 2^32 us. What a reader could not unwrap is refused: a first event at or
 /// after 2^32 us (71 minutes), or 35 minutes without an event across a wrap. Geometry is at most
-/// 16384x16384. The file has no date: the same events make the same file.
-Result<std::unique_ptr<EventWriter>> create_dat(const std::string& path, Geometry geometry);
+/// 16384x16384. Exposure measurements are not held, whether they are asked for or not. The file has
+/// no date: the same events make the same file.
+Result<std::unique_ptr<EventWriter>> create_dat(const std::string& path, Geometry geometry,
+                                                bool exposures = false);
 
 }  // namespace pursuit::sensor

@@ -6,8 +6,16 @@
 #include <utility>
 #include <vector>
 
+#include "services/sensor/formats/aedat2_reader.hpp"
+#include "services/sensor/formats/aedat4_reader.hpp"
+#include "services/sensor/formats/csv_reader.hpp"
+#include "services/sensor/formats/csv_writer.hpp"
 #include "services/sensor/formats/dat_reader.hpp"
 #include "services/sensor/formats/dat_writer.hpp"
+#include "services/sensor/formats/es_reader.hpp"
+#include "services/sensor/formats/es_writer.hpp"
+#include "services/sensor/formats/nmnist_reader.hpp"
+#include "services/sensor/formats/raw_reader.hpp"
 #include "services/sensor/formats/rpg_text_reader.hpp"
 
 namespace pursuit::sensor {
@@ -17,6 +25,15 @@ constexpr std::size_t head_bytes = 4096;
 
 constexpr Format table[] = {
     {"dat", "DAT, 1 and 2, of ATIS cameras", {".dat"}, looks_like_dat, open_dat, create_dat},
+    {"es", "Event Stream 2, DVS and ATIS", {".es"}, looks_like_es, open_es, create_es},
+    {"raw", "Prophesee RAW, as its header says", {".raw"}, looks_like_raw, open_raw, nullptr},
+    {"evt2", "the words of EVT2, header or not", {}, nullptr, open_evt2, nullptr},
+    {"evt21", "the words of EVT2.1, header or not", {}, nullptr, open_evt21, nullptr},
+    {"evt3", "the words of EVT3, header or not", {}, nullptr, open_evt3, nullptr},
+    {"nmnist", "40 bits an event, of N-MNIST", {".bin"}, nullptr, open_nmnist, nullptr},
+    {"aedat2", "AEDAT 2.0, of jAER", {".aedat"}, looks_like_aedat2, open_aedat2, nullptr},
+    {"aedat4", "AEDAT 4, of DV", {".aedat4"}, looks_like_aedat4, open_aedat4, nullptr},
+    {"csv", "CSV: t_us,x,y,p a line", {".csv"}, looks_like_csv, open_csv, create_csv},
     {"rpg", "text: t_s x y p a line", {".txt"}, looks_like_rpg_text, open_rpg_text, nullptr},
 };
 
@@ -62,7 +79,9 @@ Result<const Format*> find_format(const std::string& path, std::string_view head
     auto candidates = by_extension(path);
     if (candidates.size() == 1) return candidates.front();
     if (candidates.empty()) candidates = all_formats();
-    std::erase_if(candidates, [&](const Format* format) { return !format->recognises(head); });
+    std::erase_if(candidates, [&](const Format* format) {
+        return format->recognises == nullptr || !format->recognises(head);
+    });
     if (candidates.empty()) {
         return fail(path + ": is in no known format (" + names_of(all_formats()) + ")");
     }
@@ -76,7 +95,8 @@ Result<const Format*> find_format(const std::string& path, std::string_view head
 Result<std::unique_ptr<EventReader>> open_events(std::unique_ptr<ByteSource> source,
                                                  const ReadOptions& options) {
     ByteWindow bytes(std::move(source));
-    const auto head = bytes.ahead(head_bytes);
+    // A live stream's format is named: then one byte is all that is waited for.
+    const auto head = bytes.ahead(options.format.empty() ? head_bytes : 1);
     if (!head) return tl::unexpected(head.error());
     if (head->empty()) return tl::unexpected(error_at(bytes.name(), 0, "the file is empty"));
     const std::string_view text(reinterpret_cast<const char*>(head->data()),
@@ -94,7 +114,8 @@ Result<std::unique_ptr<EventReader>> open_events(const std::string& path,
     return open_events(std::move(*source), options);
 }
 
-Result<std::unique_ptr<EventWriter>> create_events(const std::string& path, Geometry geometry) {
+Result<std::unique_ptr<EventWriter>> create_events(const std::string& path, Geometry geometry,
+                                                   bool exposures) {
     auto candidates = by_extension(path);
     std::erase_if(candidates, [](const Format* format) { return format->create == nullptr; });
     if (candidates.empty()) {
@@ -107,7 +128,7 @@ Result<std::unique_ptr<EventWriter>> create_events(const std::string& path, Geom
         return fail(path + ": no format that can be written has this extension (" + extensions +
                     " can)");
     }
-    return candidates.front()->create(path, geometry);
+    return candidates.front()->create(path, geometry, exposures);
 }
 
 }  // namespace pursuit::sensor

@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/sensor/formats/rpg_text_reader.hpp"
 
-#include <charconv>
+#include <optional>
 #include <string>
 #include <utility>
+
+#include "services/sensor/formats/records.hpp"
+#include "services/sensor/formats/text_line.hpp"
 
 namespace pursuit::sensor {
 namespace {
 
 constexpr std::size_t longest_line = 256;
 constexpr Geometry davis240{240, 180};
-
-std::string_view take_word(std::string_view& line) {
-    const auto begin = std::min(line.find_first_not_of(" \t\r"), line.size());
-    const auto end = std::min(line.find_first_of(" \t\r", begin), line.size());
-    const auto word = line.substr(begin, end - begin);
-    line.remove_prefix(end);
-    return word;
-}
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -49,12 +44,6 @@ std::optional<std::int64_t> microseconds(std::string_view word) {
     return t_us;
 }
 
-template <class Number>
-bool parse(std::string_view word, Number& number) {
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    return error == std::errc() && end == word.data() + word.size() && !word.empty();
-}
-
 class RpgTextReader final : public EventReader {
  public:
     RpgTextReader(ByteWindow bytes, Geometry geometry)
@@ -63,32 +52,26 @@ class RpgTextReader final : public EventReader {
     Geometry geometry() const override { return geometry_; }
 
  protected:
-    Decoded decode(std::span<Event> events) override {
+    Decoded decode(std::span<Event> events, std::span<Event> /*exposures*/) override {
         Decoded done;
-        while (done.count < events.size()) {
-            const auto ahead = bytes_.ahead(longest_line);
-            if (!ahead) {
-                done.error = ahead.error();
-                return done;
+        while (done.count < events.size() && !done.error) {
+            const auto line = bytes_.line(longest_line);
+            if (!line) {
+                done.error = line.error();
+                break;
             }
-            if (ahead->empty()) return done;
-            const std::string_view text(reinterpret_cast<const char*>(ahead->data()),
-                                        std::min(ahead->size(), longest_line));
+            if (line->empty()) break;
             ++line_;
-            auto line_end = text.find('\n');
-            if (line_end == std::string_view::npos) {
-                if (text.size() == longest_line) {
-                    done.error = error("the line is longer than 256 bytes");
-                    return done;
-                }
-                line_end = text.size();  // the last line may lack its end
-            }
-            if (auto cause = read_line(text.substr(0, line_end), events[done.count])) {
+            if (line->size() == longest_line && line->back() != '\n') {
+                done.error = error("the line is longer than 256 bytes");
+            } else if (auto cause = read_line(*line, events[done.count])) {
                 done.error = error(*cause);
-                return done;
+            } else {
+                done.count += holds_event_ ? 1 : 0;
+                bytes_.consume(line->size());
             }
-            done.count += holds_event_ ? 1 : 0;
-            bytes_.consume(std::min(line_end + 1, text.size()));
+            // What has arrived is not held back until the next line has.
+            if (done.count > 0 && bytes_.at_hand().size() < longest_line) break;
         }
         return done;
     }
@@ -114,13 +97,10 @@ class RpgTextReader final : public EventReader {
         if (polarity > 1) return "polarity " + std::to_string(polarity) + " is not 0 or 1";
         event.polarity = static_cast<std::uint8_t>(polarity);
         if (event.x >= geometry_.width || event.y >= geometry_.height) {
-            return "pixel (" + std::to_string(event.x) + ", " + std::to_string(event.y) +
-                   ") is outside " + std::to_string(geometry_.width) + "x" +
-                   std::to_string(geometry_.height);
+            return outside(event.x, event.y, geometry_);
         }
         if (event.t_us < last_t_us_) {
-            return "time goes back from " + std::to_string(last_t_us_) + " to " +
-                   std::to_string(event.t_us) + " us";
+            return time_goes_back(last_t_us_, event.t_us);
         }
         last_t_us_ = event.t_us;
         return std::nullopt;
@@ -138,7 +118,8 @@ class RpgTextReader final : public EventReader {
 bool looks_like_rpg_text(std::string_view head) {
     const auto begin = head.find_first_not_of(" \t\r\n");
     return begin != std::string_view::npos && (is_digit(head[begin]) || head[begin] == '#') &&
-           head.find('\0') == std::string_view::npos;
+           head.find('\0') == std::string_view::npos && head.find(',') == std::string_view::npos &&
+           head.substr(0, 2) != "#!";
 }
 
 Result<std::unique_ptr<EventReader>> open_rpg_text(ByteWindow bytes, const ReadOptions& options) {
