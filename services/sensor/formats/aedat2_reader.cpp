@@ -130,7 +130,8 @@ Result<const Chip*> read_header(ByteWindow& bytes) {
         if (lines == most_lines) return fault("more than 1000 header lines");
         constexpr std::string_view key = "# AEChip:";
         if (line->substr(0, key.size()) == key) {
-            const auto name = trimmed(line->substr(key.size()));
+            auto rest = line->substr(key.size());
+            const auto name = take_word(rest);
             chip = chip_named(name);
             if (chip == nullptr) {
                 return fault("events of the camera \"" + std::string(name) +
