@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <map>
@@ -38,17 +39,20 @@ class RequestClient {
     /// Waits until a service hears requests and we hear replies; false after `at_most`.
     bool wait_matched(std::chrono::milliseconds at_most) {
         std::unique_lock lock(mutex_);
-        const auto until = std::chrono::steady_clock::now() + at_most;
+        const auto until = Clock::now() + at_most;
         while (writer_->matched() == 0 || reader_->matched() == 0) {
-            if (cancelled_ || std::chrono::steady_clock::now() >= until) return false;
+            if (cancelled_ || Clock::now() >= until) return false;
             changed_.wait_for(lock, std::chrono::milliseconds(5));
         }
         return true;
     }
 
+    /// How many readers hear the requests: services, and recorders of them.
+    int heard_by() const { return writer_->matched(); }
+
     /// Sends `request` (its header is filled in) and waits for the reply.
     Result<Reply> call(Request& request, std::chrono::milliseconds at_most) {
-        const auto until = std::chrono::steady_clock::now() + at_most;
+        const auto until = Clock::now() + at_most;
         if (!wait_matched(at_most)) {
             return fail("no service answers on " + topic_ + " within " +
                         std::to_string(at_most.count()) + " ms");
@@ -66,9 +70,16 @@ class RequestClient {
             return fail("a request on " + topic_ + " could not be sent");
         }
         lock.lock();
-        const bool answered = changed_.wait_until(lock, until, [&] {
-            return cancelled_ || waiting_.at(key).has_value();
-        }) && waiting_.at(key).has_value();
+        const auto is_over = [&] { return cancelled_ || waiting_.at(key).has_value(); };
+        // What heard the request first may not have been the service: it is sent again under the
+        // same id, which is applied once.
+        while (!changed_.wait_until(lock, std::min(until, Clock::now() + again_after), is_over) &&
+               Clock::now() < until) {
+            lock.unlock();
+            writer_->write(request);
+            lock.lock();
+        }
+        const bool answered = waiting_.at(key).has_value();
         auto reply = std::move(waiting_.extract(key).mapped());
         if (!answered) {
             return fail("no reply on " + topic_ + " within " + std::to_string(at_most.count()) +
@@ -85,6 +96,9 @@ class RequestClient {
     }
 
  private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::milliseconds again_after{500};
+
     RequestClient(std::string instance, std::string topic)
         : instance_(std::move(instance)), topic_(std::move(topic)) {}
 

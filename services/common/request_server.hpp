@@ -22,6 +22,10 @@ namespace pursuit {
 ///   known id: pending → nothing more happens; answered → the same reply is sent again
 ///
 /// So a request that is sent twice is applied once. Requests for another instance are not heard.
+///
+/// A client may know of the server before the server knows of the client's reader: a reply sent in
+/// between would reach nobody. What was answered is sent again to a participant whose reader is
+/// matched later than that.
 /// Threads: the handler runs on the receiving thread and must not block; answer() from any.
 template <class Request, class Reply>
 class RequestServer {
@@ -39,6 +43,8 @@ class RequestServer {
         auto writer = Writer<Reply>::create(participant, reply_topic);
         if (!writer) return tl::unexpected(writer.error());
         self->writer_ = std::move(*writer);
+        self->writer_->on_matched(
+            [server = self.get()](const auto& prefix) { server->greet(prefix); });
         auto reader = Reader<Request>::create(
             participant, request_topic,
             [server = self.get()](Request& request, const auto&) { server->receive(request); });
@@ -88,6 +94,15 @@ class RequestServer {
             pending_.emplace(key, true);
         }
         handler_(request, *this);
+    }
+
+    /// A participant's reader has come: what it was answered before, it has not heard.
+    void greet(const eprosima::fastrtps::rtps::GuidPrefix_t& prefix) {
+        const std::scoped_lock lock(mutex_);
+        for (auto& [key, reply] : replies_) {
+            const auto identity = sample_identity(reply.header().related_request_id());
+            if (identity.writer_guid().guidPrefix == prefix) send(reply);
+        }
     }
 
     void send(Reply& reply) {

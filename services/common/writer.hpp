@@ -5,7 +5,9 @@
 #include <atomic>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <functional>
 #include <memory>
+#include <mutex>
 
 #include "services/common/guarded_type.hpp"
 #include "services/common/participant.hpp"
@@ -50,6 +52,13 @@ class Writer : private eprosima::fastdds::dds::DataWriterListener {
     }
 
     int matched() const { return matched_.load(); }
+
+    /// Hears of every reader that is matched from now on; on the middleware's thread.
+    using OnMatched = std::function<void(const eprosima::fastrtps::rtps::GuidPrefix_t&)>;
+    void on_matched(OnMatched heard) {
+        const std::scoped_lock lock(mutex_);
+        heard_ = std::move(heard);
+    }
     std::uint64_t failures() const { return failures_.load(); }
     eprosima::fastrtps::rtps::GUID_t guid() const { return writer_->guid(); }
 
@@ -64,6 +73,11 @@ class Writer : private eprosima::fastdds::dds::DataWriterListener {
         eprosima::fastdds::dds::DataWriter*,
         const eprosima::fastdds::dds::PublicationMatchedStatus& status) override {
         matched_.store(status.current_count);
+        if (status.current_count_change <= 0) return;
+        const std::scoped_lock lock(mutex_);
+        if (!heard_) return;
+        const auto guid = eprosima::fastrtps::rtps::iHandle2GUID(status.last_subscription_handle);
+        heard_(guid.guidPrefix);
     }
     void on_offered_incompatible_qos(
         eprosima::fastdds::dds::DataWriter*,
@@ -73,6 +87,8 @@ class Writer : private eprosima::fastdds::dds::DataWriterListener {
 
     Participant& participant_;
     eprosima::fastdds::dds::DataWriter* writer_ = nullptr;
+    std::mutex mutex_;
+    OnMatched heard_;
     std::atomic<int> matched_{0};
     std::atomic<std::uint64_t> failures_{0};
 };

@@ -100,6 +100,8 @@ TEST_F(SamePoses, come_from_the_replay_of_a_recording) {
         *participant_, topic::tracker_request, topic::tracker_reply, "");
     ASSERT_TRUE(client);
     client_ = std::move(*client);
+    // The tracker and the recorder.
+    ASSERT_TRUE(eventually([&] { return client_->heard_by() == 2; }));
     std::this_thread::sleep_for(500ms);
     call(register_star("before", 174, 134));
     auto sensor =
@@ -134,6 +136,9 @@ TEST_F(SamePoses, come_from_the_replay_of_a_recording) {
     recording->stop();
     reader->reset();
 
+    const auto run = read_recording(path("run.mcap"));
+    EXPECT_EQ(run.payloads(topic::tracker_request).size(), 4U);
+    EXPECT_EQ(run.payloads(topic::tracker_reply).size(), 4U);
     const auto live = poses(path("run.mcap"));
     ASSERT_EQ(live.size(), 2U);
     for (const auto* rate : {"1", "0"}) {

@@ -75,10 +75,21 @@ class Pass {
         PlannedCall call;
         Place place;
     };
+    /// Request and reply come on two topics: nothing keeps the recorder from hearing the reply
+    /// first.
+    struct Exchange {
+        std::optional<v1::TrackerRequest> request;
+        std::optional<v1::TrackerReply> reply;
+        std::size_t stream = 0;  ///< Of the reply.
+        std::size_t order = 0;   ///< Of the reply.
+        bool gathered = false;   ///< What is sent again of either is not a second call.
+    };
 
     void take_packet(const std::string& topic, mcap::ByteSpan data);
     void take_request(mcap::ByteSpan data);
     void take_reply(mcap::ByteSpan data);
+    Exchange* exchange(const v1::RequestId& id);
+    void gather(Exchange& exchange);
     void take_model(mcap::ByteSpan data);
     void take_settings(mcap::ByteSpan data);
     void take_partitions(const mcap::Channel& channel);
@@ -97,7 +108,7 @@ class Pass {
     std::map<std::uint32_t, std::vector<std::uint64_t>> streams_;  ///< By sensor, as they came.
     std::optional<std::uint32_t> first_sensor_;
     std::map<std::string, std::uint32_t> sensor_of_;  ///< By the tracker's instance.
-    std::map<RequestKey, v1::TrackerRequest> requests_;
+    std::map<RequestKey, Exchange> exchanges_;
     std::vector<Gathered> gathered_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<v1::RegisteredModel, std::size_t>>
         first_models_;  ///< By sensor and object; with the stream.
@@ -160,28 +171,50 @@ std::size_t Pass::current_stream(std::optional<std::uint32_t> sensor_id) const {
     return streams == streams_.end() || streams->second.empty() ? 0 : streams->second.size() - 1;
 }
 
+Pass::Exchange* Pass::exchange(const v1::RequestId& id) {
+    const auto key = key_of(id);
+    const auto known = exchanges_.find(key);
+    if (known != exchanges_.end()) return &known->second;
+    if (exchanges_.size() >= most_calls) {
+        too_many_ = true;
+        return nullptr;
+    }
+    return &exchanges_[key];
+}
+
 void Pass::take_request(mcap::ByteSpan data) {
     auto request = decode<v1::TrackerRequest>(data);
     if (!request || !changes_state(request->call()._d())) return;
-    if (requests_.size() >= most_calls) {
-        too_many_ = true;
-        return;
-    }
-    const auto key = key_of(request->header().request_id());
-    requests_.try_emplace(key, std::move(*request));
+    auto* found = exchange(request->header().request_id());
+    if (found == nullptr || found->request || found->gathered) return;
+    found->request = std::move(*request);
+    if (found->reply) gather(*found);
 }
 
 void Pass::take_reply(mcap::ByteSpan data) {
     auto reply = decode<v1::TrackerReply>(data);
-    if (!reply) return;
-    // Taken out, so that a reply that was sent again is not a second call.
-    auto found = requests_.extract(key_of(reply->header().related_request_id()));
-    if (!found || reply->outcome().code() != v1::STATUS_OK) return;
-    auto& request = found.mapped();
-    const auto effective_us = reply->effective_time_us();
+    if (!reply || !changes_state(reply->result()._d())) return;
+    auto* found = exchange(reply->header().related_request_id());
+    if (found == nullptr || found->reply || found->gathered) return;
+    const auto sensor = sensor_of_.find(reply->header().instance_name().to_string());
+    found->stream =
+        current_stream(sensor == sensor_of_.end() ? std::nullopt : std::optional(sensor->second));
+    found->order = ++order_;
+    found->reply = std::move(*reply);
+    if (found->request) gather(*found);
+}
+
+void Pass::gather(Exchange& exchange) {
+    auto request = std::move(*exchange.request);
+    const auto reply = std::move(*exchange.reply);
+    exchange.request.reset();
+    exchange.reply.reset();
+    exchange.gathered = true;
+    if (reply.outcome().code() != v1::STATUS_OK) return;
+    const auto effective_us = reply.effective_time_us();
     const auto kind = request.call()._d();
-    if (kind == v1::TRACKER_REGISTER_MODEL && reply->result()._d() == v1::TRACKER_REGISTER_MODEL) {
-        const auto& result = reply->result().register_model();
+    if (kind == v1::TRACKER_REGISTER_MODEL && reply.result()._d() == v1::TRACKER_REGISTER_MODEL) {
+        const auto& result = reply.result().register_model();
         if (!result.already_registered()) registered_.insert(result.object_id());
         request.call().register_model().object_id(result.object_id());
     }
@@ -189,11 +222,11 @@ void Pass::take_reply(mcap::ByteSpan data) {
                         request.call().set_parameters().name().to_string().empty();
     if (kind == v1::TRACKER_SET_OCCLUSION_STRATEGY || of_all) settings_called_.insert(effective_us);
     request.apply_at_us(effective_us);
-    const auto instance = reply->header().instance_name().to_string();
+    const auto instance = reply.header().instance_name().to_string();
     const auto sensor = sensor_of_.find(instance);
     const auto sensor_id =
         sensor == sensor_of_.end() ? std::nullopt : std::optional(sensor->second);
-    add(std::move(request), {sensor_id, instance, current_stream(sensor_id)}, ++order_);
+    add(std::move(request), {sensor_id, instance, exchange.stream}, exchange.order);
 }
 
 void Pass::take_model(mcap::ByteSpan data) {
@@ -268,7 +301,9 @@ ReplayPlan Pass::finish() {
     }
     plan_.gaps = gaps_.gaps();
     plan_.packets_missed = gaps_.missed();
-    plan_.unanswered = requests_.size();
+    for (const auto& [key, exchange] : exchanges_) {
+        if (exchange.request && !exchange.reply) ++plan_.unanswered;
+    }
     if (too_many_) {
         plan_.damage = "more than " + std::to_string(most_calls) +
                        " calls on the tracker; the later ones are left out";
