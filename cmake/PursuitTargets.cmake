@@ -31,7 +31,9 @@ endif()
 
 find_program(CCACHE_PATH NAMES ccache)
 if(CCACHE_PATH)
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PATH})
+    # Without this, what uses a precompiled header is never found in the cache.
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+        CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PATH})
 endif()
 
 # pursuit_library(NAME SOURCES a.cpp … [LIBRARIES x …]): a static library of our own code.
@@ -48,6 +50,20 @@ function(pursuit_executable name)
     target_link_libraries(${name} PRIVATE pursuit_options pursuit_warnings ${arg_LIBRARIES})
 endfunction()
 
+# pursuit_headers(NAME HEADERS <a> … [LIBRARIES …] [OPTIONS …]): headers that cost more to read than
+# the files that include them, read once. Targets of the same flags take them by REUSE_FROM.
+function(pursuit_headers name)
+    cmake_parse_arguments(arg "" "" "HEADERS;LIBRARIES;OPTIONS" ${ARGN})
+    set(source ${CMAKE_BINARY_DIR}/${name}.cpp)
+    if(NOT EXISTS ${source})
+        file(WRITE ${source} "")
+    endif()
+    add_library(${name} STATIC EXCLUDE_FROM_ALL ${source})
+    target_link_libraries(${name} PRIVATE pursuit_options pursuit_warnings ${arg_LIBRARIES})
+    target_compile_options(${name} PRIVATE ${arg_OPTIONS})
+    target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
+endfunction()
+
 # pursuit_test(NAME SOURCES … [LIBRARIES …] [LABELS …]): a GoogleTest program, one ctest entry.
 function(pursuit_test name)
     cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
@@ -56,6 +72,7 @@ function(pursuit_test name)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
     # What is tested keeps its optimisation; the tests themselves are to be built soon.
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_precompile_headers(${name} REUSE_FROM pursuit_test_headers)
     if(NOT arg_LABELS)
         set(arg_LABELS unit)
     endif()

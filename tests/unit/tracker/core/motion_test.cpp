@@ -80,32 +80,32 @@ TYPED_TEST(MotionOf, is_filtered_as_full_matrices_would) {
     filter.restart(pose, Step::Zero(), Step::Constant(0.5), Step::Constant(30));
     filter.restart_leads(0.3);
 
-    using Full = Eigen::Matrix<double, size, size>;
+    using Full = Eigen::MatrixXd;  // unrolled, the same would take a minute to compile
     Full p = filter.covariance();
     const Eigen::Vector2d m(11, 5);
     Step noise = Step::Constant(40);
     for (int round = 0; round < 50; ++round) {
         const double dt_s = 1e-3 * (1 + round % 3);
-        Full f = Full::Identity();
+        Full f = Full::Identity(size, size);
         f.block(0, dof, dof, dof).diagonal().setConstant(dt_s);
-        Full drift = Full::Zero();
+        Full drift = Full::Zero(size, size);
         drift.block(0, 0, dof, dof).diagonal() = noise * (dt_s * dt_s * dt_s / 3);
         drift.block(0, dof, dof, dof).diagonal() = noise * (dt_s * dt_s / 2);
         drift.block(dof, 0, dof, dof).diagonal() = noise * (dt_s * dt_s / 2);
         drift.block(dof, dof, dof, dof).diagonal() = noise * dt_s;
-        p = f * p * f.transpose() + drift;
+        p = Full(f * p * f.transpose() + drift);
         filter.predict(dt_s, dt_s, noise);
 
         const Eigen::Vector2d n(std::cos(round), std::sin(round));
         const Step j = Motion<TypeParam::kind>::along(n, pose.a * m, pose.a, m);
         const int lead = round % 4;
-        Eigen::Matrix<double, size, 1> h = Eigen::Matrix<double, size, 1>::Zero();
-        h.template head<dof>() = j;
+        Eigen::VectorXd h = Eigen::VectorXd::Zero(size);
+        h.head(dof) = j;
         h(2 * dof + lead) = 0.7;
         const double variance = h.dot(p * h) + 0.16;
         const auto row = filter.row(j, lead, 0.7);
         EXPECT_NEAR(row.h_p_h + 0.16, variance, 1e-9 * variance);
-        p -= (p * h) * (p * h).transpose() / variance;
+        p -= Full((p * h) * (p * h).transpose() / variance);
         filter.correct(row, 0, variance, 1);
     }
     EXPECT_LT((filter.covariance() - p).norm(), 1e-9 * p.norm());
