@@ -6,13 +6,11 @@
 namespace pursuit::tracker {
 namespace {
 
-constexpr double widest_gate_px = 30;
 constexpr double narrowest_gate_px = 4;
 constexpr double gate_per_residual = 3;
 
 // Coarser than for tracking: what counts is to arrive.
 ObjectParameters arriving(ObjectParameters parameters) {
-    parameters.gate_px = widest_gate_px;
     parameters.gradient_position_gain = 0.03;
     parameters.gradient_angle_gain_rad_px2 = 5e-5;
     parameters.gradient_scale_gain_1_px = 1e-4;
@@ -25,14 +23,15 @@ ObjectParameters arriving(ObjectParameters parameters) {
 Acquisition::Acquisition(const RegisteredObject& object)
     : parameters_(arriving(object.parameters)),
       estimator_(object.transform, object.shape, parameters_, GradientEstimator::Pull::contour),
+      outline_(Contour(object.shape)),
       cover_(Contour(object.shape)) {}
 
-void Acquisition::begin(const Pose& pose) {
+void Acquisition::begin(const Pose& pose, double gate_px) {
     estimator_.restart(pose, {});
     health_.restart();
     cover_.restart();
-    residual_px_ = widest_gate_px / gate_per_residual;
-    set_gate(widest_gate_px);
+    residual_px_ = gate_px / gate_per_residual;
+    set_gate(gate_px);
 }
 
 void Acquisition::set_gate(double gate_px) {
@@ -53,7 +52,7 @@ void Acquisition::take() {
     if (distance_px_ < narrowest_gate_px) {
         health_.count(distance_px_, narrowest_gate_px, t_us_);
         if (distance_px_ < narrowest_gate_px / 4) {
-            cover_.count(piece_, estimator_.pose(), velocity());
+            cover_.count(piece_, outline_, estimator_.pose(), velocity());
         }
     }
     residual_px_ += 0.01 * (distance_px_ - residual_px_);

@@ -13,7 +13,9 @@ class Acquisition {
  public:
     Acquisition(const RegisteredObject& object);
 
-    void begin(const Pose& pose);
+    void begin(const Pose& pose) { begin(pose, widest_gate_px); }
+    /// From a pose that is known to a third of the gate or so.
+    void begin(const Pose& pose, double gate_px);
 
     Approach approach(const Event& event);
     /// Uses the event that approach() was asked for last.
@@ -27,10 +29,13 @@ class Acquisition {
     [[nodiscard]] Velocity velocity() const { return estimator_.velocity(); }
 
  private:
+    static constexpr double widest_gate_px = 30;
+
     void set_gate(double gate_px);
 
     ObjectParameters parameters_;
     GradientEstimator estimator_;
+    Outline outline_;
     Cover cover_;
     Health health_;
     std::int32_t piece_ = -1;

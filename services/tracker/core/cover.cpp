@@ -47,12 +47,13 @@ void Cover::restart() {
     share_ = 1;
 }
 
-void Cover::count(std::int32_t piece, const Pose& pose, const Velocity& velocity) {
+void Cover::count(std::int32_t piece, const Outline& outline, const Pose& pose,
+                  const Velocity& velocity) {
     ++counted_[parts_[static_cast<std::size_t>(piece)].sector];
-    if (++events_ >= window_events) close_window(pose, velocity);
+    if (++events_ >= window_events) close_window(outline, pose, velocity);
 }
 
-void Cover::close_window(const Pose& pose, const Velocity& velocity) {
+void Cover::close_window(const Outline& outline, const Pose& pose, const Velocity& velocity) {
     std::array<double, sectors> rate{};
     const Eigen::Vector2d v(velocity.vx_px_s, velocity.vy_px_s);
     double fastest_px_s = 1e-9;
@@ -63,7 +64,9 @@ void Cover::close_window(const Pose& pose, const Velocity& velocity) {
         fastest_px_s = std::max(fastest_px_s, speed.norm());
     }
     double sum = 0;
-    for (const Part& part : parts_) {
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const Part& part = parts_[i];
+        if (outline.is_hidden(static_cast<std::int32_t>(i))) continue;
         const Eigen::Vector2d d = pose.a * part.middle_px;
         const Eigen::Vector2d speed = v + velocity.omega_rad_s * Eigen::Vector2d(-d.y(), d.x()) +
                                       velocity.scale_x_rate_per_s * d;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "services/tracker/core/contour.hpp"
+#include "services/tracker/core/outline.hpp"
 #include "services/tracker/core/pose.hpp"
 
 namespace pursuit::tracker {
@@ -18,15 +19,17 @@ class Cover {
 
     void restart();
 
-    /// An event on this piece of the contour, under this pose and velocity.
-    void count(std::int32_t piece, const Pose& pose, const Velocity& velocity);
+    /// An event on this piece of the contour, under this pose and velocity. Nothing is expected of
+    /// what the outline says is hidden.
+    void count(std::int32_t piece, const Outline& outline, const Pose& pose,
+               const Velocity& velocity);
 
     /// The share of the expected events whose parts of the contour got a quarter or more of theirs,
     /// 0 … 1; over the last few hundred events.
     [[nodiscard]] double share() const { return share_; }
 
  private:
-    void close_window(const Pose& pose, const Velocity& velocity);
+    void close_window(const Outline& outline, const Pose& pose, const Velocity& velocity);
 
     static constexpr std::size_t sectors = 20;
     static constexpr int window_events = 50;

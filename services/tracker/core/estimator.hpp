@@ -36,6 +36,14 @@ class Estimator {
     virtual void restart(const Pose& pose, const Velocity& velocity) = 0;
     virtual void set_parameters(const ObjectParameters& parameters) = 0;
 
+    /// Goes on at a pose that is known to a px or two, and a velocity known to some px/s.
+    virtual void resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity) {
+        static_cast<void>(t_us);
+        restart(pose, velocity);
+    }
+    /// How much of what the object's motion would show is not hidden, above 0 … 1.
+    virtual void set_visible_share(double share) { static_cast<void>(share); }
+
     /// The event's distance to the model in the image.
     /// since_same_us: since the last event of the same pixel and polarity.
     virtual Approach approach(const Event& event, std::int64_t since_same_us) = 0;

@@ -26,6 +26,8 @@ constexpr double kappa = 0.15;     // px^-1/2
 constexpr double still_px_s = 10;  // v0
 constexpr double start_pose_sigma_px = 1.2;
 constexpr double start_speed_sigma_px_s = 3000;
+constexpr double resumed_pose_sigma_px = 1.2;
+constexpr double resumed_speed_sigma_px_s = 8;
 constexpr double most_pose_sigma_px = 1.2;
 constexpr double silent_events = 10;  // expected and not come: it stands still
 
@@ -60,6 +62,18 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
 }
 
 template <TransformKind kind>
+void KalmanEstimator<kind>::resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity) {
+    const double per_px = 1 / (contour_.gyration_px() * std::sqrt(std::abs(pose.a.determinant())));
+    Step pose_sigma = Step::Constant(resumed_pose_sigma_px * per_px);
+    pose_sigma.template head<2>().setConstant(resumed_pose_sigma_px);
+    Step twist_sigma = Step::Constant(resumed_speed_sigma_px_s * per_px);
+    twist_sigma.template head<2>().setConstant(resumed_speed_sigma_px_s);
+    filter_.restart(pose, M::twist_of(velocity), pose_sigma, twist_sigma);
+    way_begin_ = pose;
+    t_us_ = t_us;
+}
+
+template <TransformKind kind>
 void KalmanEstimator<kind>::set_parameters(const ObjectParameters& parameters) {
     parameters_ = parameters;
 }
@@ -73,7 +87,7 @@ double KalmanEstimator<kind>::scale() const {
 template <TransformKind kind>
 double KalmanEstimator<kind>::effective_length_px() const {
     // 0.6: of a contour that runs every way, the share that faces the motion.
-    return 0.6 * contour_.length_px() * scale();
+    return 0.6 * contour_.length_px() * scale() * visible_share_;
 }
 
 template <TransformKind kind>

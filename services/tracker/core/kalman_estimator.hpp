@@ -18,6 +18,8 @@ class KalmanEstimator : public Estimator {
 
     void restart(const Pose& pose, const Velocity& velocity) override;
     void set_parameters(const ObjectParameters& parameters) override;
+    void resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity) override;
+    void set_visible_share(double share) override { visible_share_ = share; }
     Approach approach(const Event& event, std::int64_t since_same_us) override;
     bool take(double weight) override;
     [[nodiscard]] const Pose& pose() const override { return filter_.pose(); }
@@ -52,6 +54,7 @@ class KalmanEstimator : public Estimator {
     Measurement measured_{};
     Pose way_begin_;
     double noise_gain_ = 1;  // g_R
+    double visible_share_ = 1;
     double speed_px_s_ = 0;  // u, at the last prediction
     double residual_px_ = 0.5;
     double sampled_for_area_ = 0;

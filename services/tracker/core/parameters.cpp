@@ -16,6 +16,9 @@ constexpr std::array object_table{
         "let_go_sharpness", &ObjectParameters::let_go_sharpness, 0, 1, "1",
         "the object is let go where fewer of its events than this share lie "
         "within a quarter of the gate; 0.25 is chance, 0 never lets go"},
+    Parameter<ObjectParameters>{"depth_order", &ObjectParameters::depth_order, 0, 1000, "1",
+                                "an object of a lower number hides those of higher ones; 0: told "
+                                "from the events that are missing"},
     Parameter<ObjectParameters>{"gradient_position_gain", &ObjectParameters::gradient_position_gain,
                                 0, 0.5, "1", "eta1 of the paper: step of the position"},
     Parameter<ObjectParameters>{"gradient_angle_gain_rad_px2",

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/track.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace pursuit::tracker {
@@ -14,9 +16,35 @@ constexpr std::int64_t keep_every_us = 30'000;
 // How often the acquisition begins again at the coasted pose.
 constexpr std::int64_t acquisition_us = 150'000;
 
+// An offered pose that the events do not confirm in this time is none; one is asked for when the
+// acquisition has not found the object by itself in the other.
+constexpr std::int64_t trial_us = 80'000;
+constexpr std::int64_t unaided_us = 30'000;
+constexpr double trial_gate_px = 6;
+
+// Where to look for an object that was lost: px, rad and log scale either way.
+constexpr double near_reach_px = 30;
+constexpr double farthest_reach_px = 80;
+constexpr double near_angle_rad = 0.6;
+constexpr double near_log_scale = 0.1;
+constexpr double any_log_scale = 0.27;
+
 // The events must speak against the pose for this long without a break: models taken from a real
 // recording, and the first moments of slow objects among noise, do so for a while.
 constexpr std::int64_t let_go_after_us = 100'000;
+
+// Of what shows of a moving object: below the first it is covered, above the second no more.
+constexpr double covered_share = 0.2;
+constexpr double uncovered_share = 0.3;
+
+// The velocity that a covered object goes on at is over this time.
+constexpr double slow_memory_s = 0.8;
+// Longer than this a covered object is not believed to have gone on.
+constexpr double longest_covered_s = 4;
+
+// ρ is over so many events.
+constexpr double tally_events = 2000;
+constexpr std::int64_t tally_every_us = 16'000;
 
 // In silence nothing tells that the object is still there.
 constexpr double sure_s = 0.1;
@@ -26,7 +54,8 @@ double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 }  // namespace
 
-Track::Track(const RegisteredObject& object, const TrackerParameters& tracker) : tracker_(tracker) {
+Track::Track(const RegisteredObject& object, const TrackerParameters& tracker)
+    : tracker_(tracker), slow_(slow_memory_s) {
     restart(object);
 }
 
@@ -38,13 +67,17 @@ void Track::make_for(const RegisteredObject& object) {
     estimator_ =
         make_estimator(object.estimator, object.transform, object.shape, object.parameters);
     acquisition_ = std::make_unique<Acquisition>(object);
-    cover_ = std::make_unique<Cover>(Contour(object.shape));
+    contour_ = Contour(object.shape);
+    cover_ = std::make_unique<Cover>(contour_);
+    outline_ = Outline(contour_);
+    silhouette_ = Silhouette(contour_);
 }
 
 void Track::replace(const RegisteredObject& object) {
     const PoseRecord last = record(last_event_t_us_);
     make_for(object);
     estimator_->restart(constrained(last.pose, transform_), last.velocity);
+    covered_.pose = constrained(covered_.pose, transform_);
     if (is_acquiring_) acquisition_->begin(constrained(last.pose, transform_));
     for (Coast& good : good_) good.pose = constrained(good.pose, transform_);
 }
@@ -59,6 +92,13 @@ void Track::restart(const RegisteredObject& object) {
     make_for(object);
     is_searching_ = object.start.search;
     is_acquiring_ = false;
+    is_covered_ = false;
+    trial_until_us_ = -1;
+    visible_share_ = 1;
+    events_per_px2_ = 2;
+    tallied_events_ = tallied_px2_ = tally_s_ = 0;
+    tallied_us_ = -1;
+    slow_.restart();
     is_fresh_ = true;
     against_since_us_ = -1;
     health_.restart();
@@ -70,8 +110,14 @@ void Track::restart(const RegisteredObject& object) {
 void Track::begin_stream() {
     // A start pose that no event has moved yet was given for the stream that begins.
     if (is_searching_ || is_fresh_) return;
+    slow_.restart();
+    tallied_us_ = -1;
+    trial_until_us_ = -1;
     // How long the sensor was away is not known: the last good pose, at rest.
-    const Pose last = is_acquiring_ ? good_[1].pose : estimator_->pose();
+    const Pose last = is_covered_     ? covered_.pose
+                      : is_acquiring_ ? good_[1].pose
+                                      : estimator_->pose();
+    is_covered_ = false;
     for (Coast& good : good_) good = {0, last, {}};
     last_event_t_us_ = 0;
     lose_grip(0);
@@ -91,6 +137,7 @@ void Track::lose_grip(std::int64_t t_us) {
     grip_lost_us_ = t_us;
     if (good_[1].t_us < 0) good_[1].t_us = t_us;
     acquisition_began_us_ = t_us;
+    trial_until_us_ = -1;
     acquisition_->begin(coasted(t_us));
 }
 
@@ -104,6 +151,8 @@ std::int64_t Track::speaks_against_for(std::int64_t t_us) {
 
 void Track::acquire(std::int64_t t_us) {
     is_acquiring_ = false;
+    is_searching_ = false;
+    trial_until_us_ = -1;
     health_.restart(Health::good);
     cover_->restart();
     estimator_->restart(acquisition_->pose(), acquisition_->velocity());
@@ -119,10 +168,48 @@ Pose Track::coasted(std::int64_t t_us) const {
     return pose;
 }
 
-Pose Track::pose() const { return is_acquiring_ ? acquisition_->pose() : estimator_->pose(); }
+std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) const {
+    if (t_us < trial_until_us_ || (!is_searching_ && !is_acquiring_)) return std::nullopt;
+    SearchRange range;
+    if (!is_searching_ && t_us - grip_lost_us_ < unaided_us) return std::nullopt;
+    const double gap_s = seconds(t_us - good_[1].t_us);
+    if (!is_searching_ && gap_s < tracker_.coast_s) {
+        const Velocity& v = good_[1].velocity;
+        range.around = coasted(t_us);
+        range.reach_px = std::min(near_reach_px + 0.3 * gap_s * std::hypot(v.vx_px_s, v.vy_px_s),
+                                  farthest_reach_px);
+        range.angle_rad = near_angle_rad + 0.3 * gap_s * std::abs(v.omega_rad_s);
+        range.log_scale = has_fixed_scale() ? 0 : near_log_scale;
+        range.usual_distance_px = 20;
+        return range;
+    }
+    range.around = is_searching_ ? estimator_->pose() : good_[1].pose;
+    range.around.t_px << geometry.width / 2.0, geometry.height / 2.0;
+    range.reach_px = std::max(geometry.width, geometry.height);
+    range.angle_rad = std::numbers::pi;
+    range.log_scale = has_fixed_scale() ? 0 : any_log_scale;
+    range.usual_distance_px = 1e6;
+    return range;
+}
+
+void Track::offer(std::int64_t t_us, const Pose& pose) {
+    is_acquiring_ = true;
+    trial_until_us_ = t_us + trial_us;
+    acquisition_began_us_ = t_us;
+    acquisition_->begin(constrained(pose, transform_), trial_gate_px);
+}
+
+Pose Track::pose() const {
+    if (is_covered_) return covered_.pose;
+    return is_acquiring_ ? acquisition_->pose() : estimator_->pose();
+}
 
 Approach Track::approach(const Event& event, std::int64_t since_same_us) {
-    if (is_searching_) return {};
+    if (is_covered_) return {};
+    if (is_searching_ && event.t_us >= trial_until_us_) {
+        is_acquiring_ = false;
+        return {};
+    }
     if (!is_acquiring_) {
         const Approach near = estimator_->approach(event, since_same_us);
         distance_px_ = near.contour_px;
@@ -130,7 +217,8 @@ Approach Track::approach(const Event& event, std::int64_t since_same_us) {
         return near;
     }
     const bool is_coasting = seconds(event.t_us - grip_lost_us_) < tracker_.coast_s;
-    if (is_coasting && event.t_us - acquisition_began_us_ > acquisition_us) {
+    if (is_coasting && event.t_us >= trial_until_us_ &&
+        event.t_us - acquisition_began_us_ > acquisition_us) {
         acquisition_began_us_ = event.t_us;
         acquisition_->begin(coasted(event.t_us));
     }
@@ -152,7 +240,8 @@ bool Track::take(const Event& event, double weight) {
         if (health_.is_quiet() && distance_px_ > parameters_.gate_px / 4) return false;
         if (!estimator_->take(weight)) return false;
         if (piece_ >= 0 && distance_px_ < parameters_.gate_px / 4) {
-            cover_->count(piece_, estimator_->pose(), estimator_->velocity());
+            cover_->count(piece_, outline_, estimator_->pose(), estimator_->velocity());
+            outline_.count(piece_, weight);
         }
         if (health_.is_fair() && against_since_us_ < 0) remember_good(event.t_us);
     }
@@ -161,15 +250,116 @@ bool Track::take(const Event& event, double weight) {
     return true;
 }
 
+void Track::deny(const Event& event) {
+    // Counted like those taken: enough of them, and the object is not hidden there.
+    if (!is_acquiring_ && piece_ >= 0 && distance_px_ < parameters_.gate_px / 4) {
+        outline_.count(piece_, 1);
+    }
+    static_cast<void>(event);
+}
+
+double Track::radius_px() const { return contour_.radius_px() * pose().a.norm(); }
+
+bool Track::can_hide() const {
+    return !is_searching_ && !is_acquiring_ && !is_covered_ && !silhouette_.covers_nothing() &&
+           health_.is_settled();
+}
+
+bool Track::can_be_hidden() const { return !is_searching_ && !is_acquiring_; }
+
+double Track::across_px_s(const Outline::Part& part, const Eigen::Vector2d& arm_px) const {
+    const Velocity v = is_covered_ ? covered_.velocity : estimator_->velocity();
+    const Eigen::Vector2d speed = Eigen::Vector2d(v.vx_px_s, v.vy_px_s) +
+                                  v.omega_rad_s * Eigen::Vector2d(-arm_px.y(), arm_px.x()) +
+                                  (v.scale_x_rate_per_s + v.scale_y_rate_per_s) / 2 * arm_px;
+    const Eigen::Vector2d along = pose().a * part.along_px;
+    return std::abs(along.x() * speed.y() - along.y() * speed.x());
+}
+
+double Track::expected_events(const Outline::Part& part, const Eigen::Vector2d& arm_px) const {
+    return events_per_px2_ * across_px_s(part, arm_px) * tally_s_;
+}
+
+void Track::tally(std::int64_t t_us, bool at_once) {
+    if (!at_once && t_us - tallied_us_ < tally_every_us) return;
+    const double dt_s = tallied_us_ < 0 ? 0 : seconds(t_us - tallied_us_);
+    tallied_us_ = t_us;
+    tally_s_ = dt_s;
+    if (is_covered_) {
+        covered_.pose.t_px +=
+            dt_s * Eigen::Vector2d(covered_.velocity.vx_px_s, covered_.velocity.vy_px_s);
+        covered_.pose.a = rotation(covered_.velocity.omega_rad_s * dt_s) * covered_.pose.a;
+        covered_.pose = constrained(covered_.pose, transform_);
+        covered_.t_us = t_us;
+        return;
+    }
+    if (is_searching_ || is_acquiring_ || !health_.is_fair()) return;
+    for (const Outline::Part& part : outline_.parts()) {
+        if (part.is_hidden) continue;
+        tallied_events_ += part.events;
+        tallied_px2_ += across_px_s(part, pose().a * part.middle_px) * dt_s;
+    }
+    if (tallied_events_ > tally_events) {
+        tallied_px2_ *= tally_events / tallied_events_;
+        tallied_events_ = tally_events;
+    }
+    // With what is usual for a start.
+    events_per_px2_ = std::clamp((tallied_events_ + 200) / (tallied_px2_ + 100), 0.2, 12.0);
+    if (visible_share_ < 0.7 || !slow_.is_due(t_us)) return;
+    const double theta = tracker::theta_rad(pose().a);
+    slow_theta_rad_ += std::remainder(theta - slow_theta_rad_, 2 * std::numbers::pi);
+    slow_.add(t_us, {pose().t_px.x(), pose().t_px.y(), slow_theta_rad_});
+}
+
+void Track::see(std::int64_t t_us) {
+    double seen = 0;
+    double whole = 0;
+    const Velocity v = is_covered_ ? covered_.velocity : estimator_->velocity();
+    const double speed_px_s = std::hypot(v.vx_px_s, v.vy_px_s, v.omega_rad_s * radius_px()) + 1e-9;
+    for (const Outline::Part& part : outline_.parts()) {
+        const double shows = across_px_s(part, pose().a * part.middle_px) / speed_px_s +
+                             0.1 * (pose().a * part.along_px).norm();
+        whole += shows;
+        if (!part.is_hidden) seen += shows;
+    }
+    visible_share_ = whole > 0 ? seen / whole : 1;
+    estimator_->set_visible_share(std::max(visible_share_, covered_share));
+    if (!is_covered_ && can_be_hidden() && visible_share_ < covered_share) cover(t_us);
+    if (is_covered_ &&
+        (visible_share_ > uncovered_share || seconds(t_us - grip_lost_us_) > longest_covered_s)) {
+        uncover(t_us);
+    }
+}
+
+void Track::cover(std::int64_t t_us) {
+    PoseRecord now;
+    estimator_->describe(t_us, now);
+    covered_ = {t_us, now.pose, now.velocity};
+    const auto slow = slow_.per_s();
+    if (!slow.isZero()) covered_.velocity = {slow(0), slow(1), slow(2), 0, 0};
+    is_covered_ = true;
+    grip_lost_us_ = t_us;
+    against_since_us_ = -1;
+}
+
+void Track::uncover(std::int64_t t_us) {
+    is_covered_ = false;
+    health_.restart(Health::good);
+    cover_->restart();
+    estimator_->resume(t_us, covered_.pose, covered_.velocity);
+    for (Coast& good : good_) good = {t_us, covered_.pose, covered_.velocity};
+}
+
 TrackState Track::state_at(std::int64_t t_us) const {
     if (is_searching_) return TrackState::searching;
+    if (is_covered_) return TrackState::occluded;
     if (!is_acquiring_) return TrackState::tracking;
     return seconds(t_us - grip_lost_us_) < tracker_.coast_s ? TrackState::occluded
                                                             : TrackState::lost;
 }
 
 double Track::confidence_at(std::int64_t t_us) const {
-    if (is_searching_ || is_acquiring_) return 0;
+    if (is_searching_ || is_acquiring_ || is_covered_) return 0;
     const double sharp = std::clamp((health_.sharpness() - 0.25) / 0.4, 0.0, 1.0);
     const double fit = std::min(sharp, std::clamp((cover_->share() - 0.4) / 0.2, 0.0, 1.0));
     const double silent_s = seconds(t_us - health_.lively_t_us()) - sure_s;
@@ -185,9 +375,15 @@ PoseRecord Track::record(std::int64_t t_us) const {
     record.transform = transform_;
     record.state = state_at(t_us);
     estimator_->describe(t_us, record);
-    if (is_acquiring_) {
+    if (is_acquiring_ && !is_searching_) {
         record.pose = coasted(t_us);
         record.velocity = good_[1].velocity;
+    }
+    if (is_covered_) {
+        record.pose = covered_.pose;
+        record.velocity = covered_.velocity;
+        record.pose.t_px += seconds(t_us - covered_.t_us) *
+                            Eigen::Vector2d(record.velocity.vx_px_s, record.velocity.vy_px_s);
     }
     record.theta_rad = theta_rad(record.pose.a);
     record.scale_x = scale_x(record.pose.a);
@@ -205,8 +401,9 @@ TrackSnapshot Track::snapshot() const {
     snapshot.t_us = is_acquiring_ ? good_[1].t_us : last_event_t_us_;
     PoseRecord last;
     estimator_->describe(last_event_t_us_, last);
-    snapshot.pose = is_acquiring_ ? good_[1].pose : last.pose;
-    snapshot.velocity = is_acquiring_ ? good_[1].velocity : last.velocity;
+    const Coast* coast = is_covered_ ? &covered_ : is_acquiring_ ? &good_[1] : nullptr;
+    snapshot.pose = coast ? coast->pose : last.pose;
+    snapshot.velocity = coast ? coast->velocity : last.velocity;
     return snapshot;
 }
 

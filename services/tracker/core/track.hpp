@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "services/common/event.hpp"
@@ -9,8 +10,12 @@
 #include "services/tracker/core/cover.hpp"
 #include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/health.hpp"
+#include "services/tracker/core/outline.hpp"
 #include "services/tracker/core/pose_record.hpp"
 #include "services/tracker/core/registration.hpp"
+#include "services/tracker/core/shape_search.hpp"
+#include "services/tracker/core/silhouette.hpp"
+#include "services/tracker/core/slope.hpp"
 
 namespace pursuit::tracker {
 
@@ -24,6 +29,9 @@ namespace pursuit::tracker {
 /// coasts on its velocity and the acquisition has the events, from where the coast is, again and
 /// again; LOST says that coasting went on too long, and the acquisition still goes on. No events at
 /// all are no mismatch: an object that stands still stays TRACKING, with falling confidence.
+///
+/// An object that other objects cover, all but a fifth of what its motion shows of it, is OCCLUDED:
+/// it takes no events and goes on at its velocity of the last second until enough of it shows.
 class Track {
  public:
     Track(const RegisteredObject& object, const TrackerParameters& tracker);
@@ -44,6 +52,40 @@ class Track {
     Approach approach(const Event& event, std::int64_t since_same_us);
     bool take(const Event& event, double weight);
 
+    /// An event that would have been the object's, were it not hidden there.
+    void deny(const Event& event);
+
+    // For Seeker.
+    /// Where to look for the object, while its place is not known.
+    [[nodiscard]] std::optional<SearchRange> wanted(std::int64_t t_us, Geometry geometry) const;
+    /// The object may be here: it is tried.
+    void offer(std::int64_t t_us, const Pose& pose);
+    [[nodiscard]] const Contour& contour() const { return contour_; }
+    [[nodiscard]] bool has_fixed_scale() const { return transform_ == TransformKind::isometry; }
+
+    // For Occlusion, every few ms.
+    [[nodiscard]] const Silhouette& silhouette() const { return silhouette_; }
+    [[nodiscard]] Outline& outline() { return outline_; }
+    [[nodiscard]] const Outline& outline() const { return outline_; }
+    [[nodiscard]] double radius_px() const;
+    [[nodiscard]] double depth_order() const { return parameters_.depth_order; }
+    [[nodiscard]] bool can_hide() const;
+    [[nodiscard]] bool can_be_hidden() const;
+    [[nodiscard]] bool is_partly_hidden() const { return visible_share_ < 1; }
+    /// How many events a part of the contour with this arm (image) should have made in the time
+    /// that the last tally was over.
+    [[nodiscard]] double expected_events(const Outline::Part& part,
+                                         const Eigen::Vector2d& arm_px) const;
+    /// Learns how many events the motion makes from what the outline has counted; at once, or when
+    /// there is enough of it.
+    void tally(std::int64_t t_us, bool at_once);
+    /// What the tally was over is done with.
+    void end_tally(std::int64_t t_us) {
+        if (tallied_us_ == t_us) outline_.clear();
+    }
+    /// The outline knows what is hidden.
+    void see(std::int64_t t_us);
+
     /// What is known at a grid time at or after the last event.
     [[nodiscard]] PoseRecord record(std::int64_t t_us) const;
     [[nodiscard]] TrackSnapshot snapshot() const;
@@ -62,6 +104,10 @@ class Track {
     std::int64_t speaks_against_for(std::int64_t t_us);
     void lose_grip(std::int64_t t_us);
     void acquire(std::int64_t t_us);
+    void cover(std::int64_t t_us);
+    void uncover(std::int64_t t_us);
+    [[nodiscard]] double across_px_s(const Outline::Part& part,
+                                     const Eigen::Vector2d& arm_px) const;
     [[nodiscard]] Pose coasted(std::int64_t t_us) const;
     [[nodiscard]] TrackState state_at(std::int64_t t_us) const;
     [[nodiscard]] double confidence_at(std::int64_t t_us) const;
@@ -75,14 +121,28 @@ class Track {
     std::unique_ptr<Acquisition> acquisition_;
     Health health_;
     std::unique_ptr<Cover> cover_;
+    Contour contour_;
+    Outline outline_;
+    Silhouette silhouette_;
+    Slope<3> slow_;  // x, y, θ
+    double slow_theta_rad_ = 0;
+    double events_per_px2_ = 2;  // ρ: of contour length times the way across it
+    double tallied_events_ = 0;
+    double tallied_px2_ = 0;
+    double tally_s_ = 0;  // what the last one was over
+    std::int64_t tallied_us_ = -1;
+    double visible_share_ = 1;
     std::int32_t piece_ = -1;
+    bool is_covered_ = false;
     bool is_searching_ = false;
     bool is_acquiring_ = false;
     bool is_fresh_ = true;  // since the restart no event was taken
     std::int64_t against_since_us_ = -1;
     Coast good_[2];  // the last, and the one before: older than what made the events mismatch
+    Coast covered_;
     std::int64_t grip_lost_us_ = 0;
     std::int64_t acquisition_began_us_ = 0;
+    std::int64_t trial_until_us_ = -1;  // of an offered pose
     double distance_px_ = 0;
     std::int64_t last_event_t_us_ = 0;
     std::uint64_t events_used_ = 0;

@@ -8,9 +8,11 @@
 
 #include "services/tracker/core/association/by_distance.hpp"
 #include "services/tracker/core/association/strategy.hpp"
+#include "services/tracker/core/occlusion.hpp"
 #include "services/tracker/core/pose_grid.hpp"
 #include "services/tracker/core/recent_pixels.hpp"
 #include "services/tracker/core/registry.hpp"
+#include "services/tracker/core/seeker.hpp"
 #include "services/tracker/core/track.hpp"
 
 namespace pursuit::tracker {
@@ -57,6 +59,7 @@ class Tracker::Impl {
         while (!changes.empty() && changes.front().effective_time_us <= now_us) {
             emit_before(changes.front().effective_time_us, sink);
             changes.front().apply();
+            occlusion.restart();
             changes.pop_front();
         }
         emit_before(now_us + 1, sink);
@@ -96,13 +99,21 @@ class Tracker::Impl {
     // The paper's algorithm, for one event.
     void process(const Event& event, PoseSink& sink) {
         const std::int64_t since_same_us = recent.note(event);
+        if (event.t_us >= occlusion.next_us()) occlusion.look(event.t_us, tracks);
+        seeker.work(event.t_us, tracks);
+        seeker.see(event);
 
         // The objects it may belong to, by the nearest place of each model (3.1).
         claims.clear();
         claimants.clear();
-        for (Track& track : tracks) {
+        for (std::size_t i = 0; i < tracks.size(); ++i) {
+            Track& track = tracks[i];
             const Approach near = track.approach(event, since_same_us);
             if (!near.is_within()) continue;
+            if (occlusion.hides(i, event, tracks)) {
+                track.deny(event);
+                continue;
+            }
             claims.push_back({track.object_id(), near.distance_px, near.likelihood, near.clutter});
             claimants.push_back(&track);
         }
@@ -170,6 +181,8 @@ class Tracker::Impl {
     std::unique_ptr<Strategy> strategy;
     double ambiguity_px = 3;
     std::vector<Track> tracks;  // in order of ids
+    Occlusion occlusion;
+    Seeker seeker;
 
     // Of the event in hand; kept to allocate nothing an event.
     std::vector<Claim> claims;
@@ -198,12 +211,14 @@ Tracker::~Tracker() = default;
 void Tracker::begin_stream(Geometry geometry, std::uint64_t stream_id) {
     // Nothing of the former stream comes any more.
     for (Impl::Change& change : impl_->changes) change.apply();
+    impl_->occlusion.restart();
     impl_->changes.clear();
     impl_->geometry = geometry;
     impl_->stream_id = stream_id;
     impl_->last_t_us = -1;
     impl_->grid.restart();
     impl_->recent.restart(geometry);
+    impl_->seeker.restart(geometry);
     for (Track& track : impl_->tracks) track.begin_stream();
 }
 

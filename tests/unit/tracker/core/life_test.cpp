@@ -149,6 +149,7 @@ TEST(Health, tells_events_on_the_contour_from_events_anywhere) {
 
 TEST(Cover, is_whole_where_all_of_a_moving_contour_makes_events) {
     const Contour contour(arrow());
+    const Outline outline(contour);
     Cover cover(contour);
     const Velocity right{100, 0, 0, 0, 0};
     const auto& pieces = contour.pieces().pieces();
@@ -157,14 +158,14 @@ TEST(Cover, is_whole_where_all_of_a_moving_contour_makes_events) {
             for (std::size_t i = 0; i < pieces.size(); ++i) {
                 const bool faces = std::abs(pieces[i].by - pieces[i].ay) > 0.3;
                 if (!faces || (front_alone && pieces[i].ax < 0)) continue;
-                cover.count(static_cast<std::int32_t>(i), {}, right);
+                cover.count(static_cast<std::int32_t>(i), outline, {}, right);
             }
         }
     };
     make_events(false);
     EXPECT_GT(cover.share(), 0.8);
     cover.restart();
-    for (int round = 0; round < 2000; ++round) cover.count(0, {}, right);
+    for (int round = 0; round < 2000; ++round) cover.count(0, outline, {}, right);
     EXPECT_LT(cover.share(), 0.3);
 }
 

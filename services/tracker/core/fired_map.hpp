@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "services/common/event.hpp"
+
+namespace pursuit::tracker {
+
+/// Which pixels fired lately, and of each cell how far the next of them is. Large images have cells
+/// of several pixels: at most 100,000 cells.
+class FiredMap {
+ public:
+    /// Distances are whole thirds of a cell, up to this.
+    static constexpr int farthest = 21;
+
+    void build(Geometry geometry, std::span<const Event> events);
+
+    [[nodiscard]] double cell_px() const { return cell_px_; }
+    [[nodiscard]] int columns() const { return columns_; }
+    [[nodiscard]] int rows() const { return rows_; }
+
+    /// Thirds of a cell to the next cell that fired; the farthest outside the image.
+    [[nodiscard]] int distance(int column, int row) const {
+        if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return farthest;
+        return distance_[at(column, row)];
+    }
+
+    /// Over the square of cells around this one, cut at the image's border.
+    struct Around {
+        double fired = 0;     ///< How many cells fired.
+        double mean = 0;      ///< Of the distances, thirds of a cell.
+        double variance = 0;  ///< Of the distances.
+    };
+    [[nodiscard]] Around around(int column, int row, int half_side) const;
+
+ private:
+    [[nodiscard]] std::size_t at(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(column);
+    }
+
+    double cell_px_ = 1;
+    int columns_ = 0;
+    int rows_ = 0;
+    std::vector<std::uint8_t> distance_;
+    // Sums over everything above and to the left, a row and a column more than the image.
+    struct Sums {
+        std::uint32_t fired = 0;
+        std::uint32_t distance = 0;
+        std::uint32_t squared = 0;
+    };
+    std::vector<Sums> sums_;
+};
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/occlusion.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace pursuit::tracker {
+namespace {
+
+constexpr std::int64_t every_us = 2'000;
+constexpr double memory_s = 0.5;
+
+// A contour this deep inside another is told from the other's own.
+constexpr double told_depth_px = 2.5;
+// A contour this near outside the other's is hidden in the other's events.
+constexpr double band_px = 1.5;
+
+constexpr double least_expected = 20;
+constexpr double hidden_share = 0.25;
+constexpr double front_share = 0.4;
+constexpr double forgotten = 0.5;  // expected events
+
+// How deep a place of the image lies inside a track's contour, image px.
+double image_depth_px(const Track& front, const Eigen::Vector2d& p) {
+    const Pose& pose = front.pose();
+    const double scale = std::sqrt(std::abs(pose.a.determinant()));
+    return front.silhouette().depth_px(pose.a.inverse() * (p - pose.t_px)) * scale;
+}
+
+bool may_overlap(const Track& one, const Track& other) {
+    const double reach_px = one.radius_px() + other.radius_px() + band_px;
+    return (one.pose().t_px - other.pose().t_px).squaredNorm() < reach_px * reach_px;
+}
+
+}  // namespace
+
+void Occlusion::restart() {
+    next_us_ = 0;
+    last_us_ = -1;
+    evidence_.clear();
+    overlaps_.clear();
+    hidden_by_.clear();
+}
+
+void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
+    const double dt_s = last_us_ < 0 ? 0 : static_cast<double>(t_us - last_us_) * 1e-6;
+    last_us_ = t_us;
+    next_us_ = t_us + every_us;
+    const double kept = std::exp(-dt_s / memory_s);
+    for (auto& [pair, evidence] : evidence_) {
+        evidence.expected *= kept;
+        evidence.observed *= kept;
+    }
+
+    overlaps_.clear();
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        for (std::size_t k = 0; k < tracks.size(); ++k) {
+            if (i != k && tracks[k].can_hide() && tracks[i].can_be_hidden() &&
+                may_overlap(tracks[i], tracks[k])) {
+                overlaps_.push_back({i, k});
+            }
+        }
+    }
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        const bool overlaps = std::any_of(overlaps_.begin(), overlaps_.end(),
+                                          [&](const Overlap& pair) { return pair.inner == i; });
+        tracks[i].tally(t_us, overlaps);
+    }
+    for (const auto& [i, k] : overlaps_) gather(tracks[i], tracks[k]);
+    hidden_by_.resize(tracks.size());
+    for (auto& fronts : hidden_by_) fronts.clear();
+    for (const auto& [i, k] : overlaps_) {
+        if (is_behind(tracks[i], tracks[k])) hidden_by_[i].push_back(k);
+    }
+    std::erase_if(evidence_, [](const auto& pair) {
+        return pair.second.expected < forgotten && pair.second.observed < forgotten;
+    });
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        Track& track = tracks[i];
+        track.end_tally(t_us);
+        if (hidden_by_[i].empty() && !track.is_partly_hidden()) continue;
+        for (Outline::Part& part : track.outline().parts()) {
+            const Eigen::Vector2d p = track.pose().t_px + track.pose().a * part.middle_px;
+            part.is_hidden =
+                std::any_of(hidden_by_[i].begin(), hidden_by_[i].end(),
+                            [&](std::size_t k) { return image_depth_px(tracks[k], p) > -band_px; });
+        }
+        track.see(t_us);
+    }
+}
+
+void Occlusion::gather(const Track& one, const Track& other) {
+    Evidence& evidence = evidence_[{one.object_id(), other.object_id()}];
+    for (const Outline::Part& part : one.outline().parts()) {
+        const Eigen::Vector2d arm = one.pose().a * part.middle_px;
+        if (image_depth_px(other, one.pose().t_px + arm) < told_depth_px) continue;
+        evidence.expected += one.expected_events(part, arm);
+        evidence.observed += part.events;
+    }
+}
+
+bool Occlusion::is_behind(const Track& one, const Track& other) {
+    const double depth = one.depth_order();
+    const double other_depth = other.depth_order();
+    if (depth > 0 && other_depth > 0 && depth != other_depth) return other_depth < depth;
+
+    const auto found = evidence_.find({one.object_id(), other.object_id()});
+    if (found == evidence_.end()) return false;
+    Evidence& evidence = found->second;
+    const auto reverse = evidence_.find({other.object_id(), one.object_id()});
+    const bool other_is_seen = reverse != evidence_.end() &&
+                               reverse->second.observed > front_share * reverse->second.expected;
+    if (evidence.expected > least_expected) {
+        if (evidence.observed < hidden_share * evidence.expected && other_is_seen) {
+            evidence.is_behind = true;
+        } else if (evidence.observed > front_share * evidence.expected) {
+            evidence.is_behind = false;
+        }
+    }
+    return evidence.is_behind;
+}
+
+bool Occlusion::hides(std::size_t index, const Event& event, std::span<const Track> tracks) const {
+    if (index >= hidden_by_.size()) return false;
+    return std::any_of(hidden_by_[index].begin(), hidden_by_[index].end(), [&](std::size_t k) {
+        return image_depth_px(tracks[k], Eigen::Vector2d(event.x, event.y)) > -band_px;
+    });
+}
+
+}  // namespace pursuit::tracker

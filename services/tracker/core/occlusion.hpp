@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "services/common/event.hpp"
+#include "services/tracker/core/track.hpp"
+
+namespace pursuit::tracker {
+
+/// Which object hides which. Where the contour of one lies inside another, it makes events when it
+/// is in front and none when it is behind: what should have come against what came, both ways,
+/// tells which, unless their depth is given. Parts that are hidden take no events.
+///
+/// Looked at every 2 ms of event time, over the last half second. The pairs kept are those whose
+/// contours overlapped lately.
+class Occlusion {
+ public:
+    /// To be called before the first event at or after next_us().
+    void look(std::int64_t t_us, std::span<Track> tracks);
+    [[nodiscard]] std::int64_t next_us() const { return next_us_; }
+
+    /// The tracks are others than before, or time begins anew.
+    void restart();
+
+    /// Whether an event at this place cannot be the object's, because another lies over it.
+    /// `index` and `tracks` as of the last look().
+    [[nodiscard]] bool hides(std::size_t index, const Event& event,
+                             std::span<const Track> tracks) const;
+
+ private:
+    /// Of one object's contour inside another.
+    struct Evidence {
+        double expected = 0;
+        double observed = 0;
+        bool is_behind = false;
+    };
+
+    using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< Ids of the inner one and the other.
+
+    struct Overlap {
+        std::size_t inner;  ///< Indices.
+        std::size_t other;
+    };
+
+    void gather(const Track& one, const Track& other);
+    bool is_behind(const Track& one, const Track& other);
+
+    std::int64_t next_us_ = 0;
+    std::int64_t last_us_ = -1;
+    std::map<Pair, Evidence> evidence_;
+    std::vector<Overlap> overlaps_;
+    std::vector<std::vector<std::size_t>> hidden_by_;  // by index: those in front of it
+};
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "services/tracker/core/contour.hpp"
+
+namespace pursuit::tracker {
+
+/// A contour as at most 512 parts, and what came from each: how far it moved across itself, which
+/// is what makes events, and how many came.
+class Outline {
+ public:
+    static constexpr std::size_t most_parts = 512;
+
+    struct Part {
+        Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();  ///< Model frame.
+        Eigen::Vector2d along_px = Eigen::Vector2d::Zero();   ///< Its direction, as long as it is.
+        double events = 0;       ///< Since the last clear(), by their weights.
+        bool is_hidden = false;  ///< By another object, as far as known.
+    };
+
+    Outline() = default;
+    /// Up to 512 pieces are a part each; of more, several that follow each other are one.
+    explicit Outline(const Contour& contour) {
+        const std::vector<Piece>& pieces = contour.pieces().pieces();
+        const std::size_t of_one = (pieces.size() + most_parts - 1) / most_parts;
+        part_of_.reserve(pieces.size());
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            const Piece& piece = pieces[i];
+            const Eigen::Vector2d along(piece.bx - piece.ax, piece.by - piece.ay);
+            if (i % of_one == 0) {
+                parts_.push_back({{(piece.ax + piece.bx) / 2, (piece.ay + piece.by) / 2}, along});
+            } else {
+                Eigen::Vector2d& of_part = parts_.back().along_px;
+                const double length_px = of_part.norm();
+                if (length_px > 0) of_part *= 1 + along.norm() / length_px;
+            }
+            part_of_.push_back(static_cast<std::uint16_t>(parts_.size() - 1));
+        }
+    }
+
+    void count(std::int32_t piece, double weight) {
+        parts_[part_of_[static_cast<std::size_t>(piece)]].events += weight;
+    }
+    void clear() {
+        for (Part& part : parts_) part.events = 0;
+    }
+
+    [[nodiscard]] std::vector<Part>& parts() { return parts_; }
+    [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+    [[nodiscard]] bool is_hidden(std::int32_t piece) const {
+        return parts_[part_of_[static_cast<std::size_t>(piece)]].is_hidden;
+    }
+
+ private:
+    std::vector<Part> parts_;
+    std::vector<std::uint16_t> part_of_;  // by piece
+};
+
+}  // namespace pursuit::tracker

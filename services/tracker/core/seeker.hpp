@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "services/common/event.hpp"
+#include "services/tracker/core/fired_map.hpp"
+#include "services/tracker/core/shape_search.hpp"
+#include "services/tracker/core/track.hpp"
+
+namespace pursuit::tracker {
+
+/// Looks for the objects whose place is not known, one after another, in the last events. What it
+/// finds it offers to the track, which tries it. The work is spread over the events by their time,
+/// so that it neither stalls them nor depends on how fast they are processed.
+///
+/// Keeps the last 16,384 events of the last 40 ms.
+class Seeker {
+ public:
+    void restart(Geometry geometry);
+
+    /// Every event.
+    void see(const Event& event) {
+        if (ring_.empty()) return;
+        ring_[next_ % ring_.size()] = event;
+        ++next_;
+    }
+
+    /// Every event, before it is given to a track.
+    void work(std::int64_t t_us, std::span<Track> tracks) {
+        if (t_us >= due_us_) go_on(t_us, tracks);
+    }
+
+ private:
+    void go_on(std::int64_t t_us, std::span<Track> tracks);
+    void begin(std::int64_t t_us, std::span<Track> tracks);
+    void end(std::int64_t t_us, Track& track);
+    /// The last `count` events that have a neighbour in space and time, in reach of the range.
+    void gather(std::int64_t t_us, const SearchRange& range, double radius_px, std::size_t count);
+    [[nodiscard]] std::size_t wanted_events(const Track& track) const;
+
+    Geometry geometry_;
+    std::vector<Event> ring_;
+    std::size_t next_ = 0;
+    std::vector<Event> gathered_;
+    std::vector<std::int64_t> fired_us_;  // by pixel, while gathering
+    FiredMap map_;
+    ShapeSearch search_;
+    std::uint32_t object_id_ = 0;  // of the search that goes on; 0: none
+    std::uint32_t last_object_id_ = 0;
+    std::uint32_t attempt_ = 0;
+    std::int64_t due_us_ = 0;
+    std::int64_t worked_us_ = 0;
+};
+
+}  // namespace pursuit::tracker

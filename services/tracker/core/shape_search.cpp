@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/shape_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pursuit::tracker {
+namespace {
+
+constexpr double stride_px = 3;
+constexpr double rim_step_px = 4;  // the rim moves so far from one angle to the next
+constexpr double scale_step = 0.1;
+constexpr std::size_t most_turns = 64 * 9;
+
+// Below: chance, or a part of the shape alone.
+constexpr double least_score = 0.4;
+
+// A pose of the coarse pass is at least this far from its surroundings.
+constexpr double least_z = 2;
+
+// Poses nearer than this to each other are one.
+constexpr int same_cells = 6;
+
+constexpr double hit = 1.4;   // cells: the contour fired here
+constexpr double beside = 4;  // px off the contour, where only chance has fired
+
+}  // namespace
+
+ShapeSearch::ShapeSearch(const Contour& contour)
+    : pieces_(contour.pieces().pieces()),
+      length_px_(contour.length_px()),
+      radius_px_(contour.radius_px()),
+      coarse_(samples(coarse_points)),
+      fine_(samples(fine_points)) {
+    best_.reserve(kept + 1);
+}
+
+// At equal distances along the contour.
+std::vector<ShapeSearch::Sample> ShapeSearch::samples(int count) const {
+    std::vector<Sample> samples;
+    double gone_px = 0;
+    for (const Piece& piece : pieces_) {
+        const Eigen::Vector2d a(piece.ax, piece.ay);
+        const Eigen::Vector2d along(piece.bx - piece.ax, piece.by - piece.ay);
+        const double end_px = gone_px + along.norm();
+        while (static_cast<int>(samples.size()) < count) {
+            const double at_px = (static_cast<double>(samples.size()) + 0.5) / count * length_px_;
+            if (at_px >= end_px) break;
+            const Eigen::Vector2d unit = along.normalized();
+            samples.push_back({a + (at_px - gone_px) * unit, {-unit.y(), unit.x()}});
+        }
+        gone_px = end_px;
+    }
+    // Shapes without edges: their points.
+    for (std::size_t i = 0; static_cast<int>(samples.size()) < count && !pieces_.empty(); ++i) {
+        const Piece& piece = pieces_[i * 7 % pieces_.size()];
+        samples.push_back({{piece.ax, piece.ay}, {1, 0}});
+    }
+    return samples;
+}
+
+void ShapeSearch::begin(const FiredMap& map, const SearchRange& range) {
+    map_ = &map;
+    range_ = range;
+    found_.reset();
+    best_.clear();
+    fine_next_ = 0;
+    turns_.clear();
+    stride_ = std::max(1, static_cast<int>(stride_px / map.cell_px()));
+    const double middle_rad = theta_rad(range.around.a);
+    const double middle_scale = std::sqrt(std::abs(range.around.a(0, 0) * range.around.a(1, 1) -
+                                                   range.around.a(0, 1) * range.around.a(1, 0)));
+    const double rim_px = std::max(radius_px_ * middle_scale, 4.0);
+    const double angle_rad = std::min(range.angle_rad, std::numbers::pi);
+    const int angles =
+        std::clamp(static_cast<int>(std::ceil(2 * angle_rad * rim_px / rim_step_px)), 1, 64);
+    const int scales =
+        range.log_scale > 0 ? 2 * static_cast<int>(std::ceil(range.log_scale / scale_step)) + 1 : 1;
+    for (int s = 0; s < std::min(scales, 9); ++s) {
+        for (int i = 0; i < angles && turns_.size() < most_turns; ++i) {
+            Turn turn;
+            turn.angle_rad = middle_rad - angle_rad + (i + 0.5) * 2 * angle_rad / angles;
+            turn.scale = middle_scale *
+                         std::exp(scales == 1 ? 0 : range.log_scale * (2.0 * s / (scales - 1) - 1));
+            const Eigen::Matrix2d a = turn.scale * rotation(turn.angle_rad);
+            for (std::size_t k = 0; k < coarse_points; ++k) {
+                const Eigen::Vector2d d = a * coarse_[k].at_px / map.cell_px();
+                turn.dx[k] = static_cast<std::int16_t>(std::lround(d.x()));
+                turn.dy[k] = static_cast<std::int16_t>(std::lround(d.y()));
+            }
+            turns_.push_back(turn);
+        }
+    }
+    const auto cell = [&](double px, int end) {
+        return std::clamp(static_cast<int>(px / map.cell_px()), 0, end);
+    };
+    const Eigen::Vector2d t = range.around.t_px;
+    first_column_ = cell(t.x() - range.reach_px, map.columns() - 1);
+    end_column_ = cell(t.x() + range.reach_px, map.columns() - 1) + 1;
+    first_row_ = cell(t.y() - range.reach_px, map.rows() - 1);
+    end_row_ = cell(t.y() + range.reach_px, map.rows() - 1) + 1;
+    turn_ = 0;
+    column_ = first_column_;
+    row_ = first_row_;
+    stage_ = Stage::coarse;
+}
+
+void ShapeSearch::step(int poses) {
+    while (poses > 0 && stage_ == Stage::coarse) {
+        look_at(turns_[turn_], turn_, column_, row_);
+        --poses;
+        column_ += stride_;
+        if (column_ < end_column_) continue;
+        column_ = first_column_;
+        row_ += stride_;
+        if (row_ < end_row_) continue;
+        row_ = first_row_;
+        if (++turn_ == turns_.size()) stage_ = Stage::fine;
+    }
+    while (poses > 0 && stage_ == Stage::fine) {
+        if (fine_next_ == best_.size()) {
+            stage_ = Stage::done;
+            break;
+        }
+        const Candidate& candidate = best_[fine_next_++];
+        const Pose pose = fitted(pose_of(candidate));
+        const double far = (pose.t_px - range_.around.t_px).norm() / range_.usual_distance_px;
+        const double value = score(pose);
+        const double worth = value - 0.05 * std::min(far * far, 4.0);
+        if (value > least_score && (!found_ || worth > found_->score)) {
+            found_ = Found{pose, worth};
+        }
+        poses -= 300;
+    }
+}
+
+void ShapeSearch::look_at(const Turn& turn, std::size_t turn_index, int column, int row) {
+    const double rim_cells = radius_px_ * turn.scale / map_->cell_px();
+    const auto around = map_->around(column, row, static_cast<int>(0.8 * rim_cells) + 2);
+    if (around.fired * map_->cell_px() < 0.2 * length_px_ * turn.scale) return;
+    const double deviation = std::sqrt(std::max(around.variance, 1.0) / coarse_points);
+    const double wanted_z = best_.size() < kept ? least_z : std::max(least_z, best_.back().z);
+    const double most = (around.mean - wanted_z * deviation) * coarse_points;
+    if (!(most > 0)) return;
+    int sum = 0;
+    const int bound = static_cast<int>(most);
+    for (std::size_t k = 0; k < coarse_points; ++k) {
+        sum += map_->distance(column + turn.dx[k], row + turn.dy[k]);
+        if (sum > bound) return;
+    }
+    keep({(around.mean - static_cast<double>(sum) / coarse_points) / deviation, turn_index, column,
+          row});
+}
+
+void ShapeSearch::keep(const Candidate& candidate) {
+    for (Candidate& other : best_) {
+        const double turned = std::remainder(
+            turns_[other.turn].angle_rad - turns_[candidate.turn].angle_rad, 2 * std::numbers::pi);
+        const bool is_same = std::abs(other.column - candidate.column) <= same_cells &&
+                             std::abs(other.row - candidate.row) <= same_cells &&
+                             std::abs(turned) < 0.3;
+        if (!is_same) continue;
+        if (other.z >= candidate.z) return;
+        other = candidate;
+        std::stable_sort(best_.begin(), best_.end(),
+                         [](const auto& l, const auto& r) { return l.z > r.z; });
+        return;
+    }
+    const auto place = std::find_if(best_.begin(), best_.end(),
+                                    [&](const Candidate& other) { return other.z < candidate.z; });
+    best_.insert(place, candidate);
+    if (best_.size() > kept) best_.pop_back();
+}
+
+Pose ShapeSearch::pose_of(const Candidate& candidate) const {
+    const Turn& turn = turns_[candidate.turn];
+    Pose pose;
+    pose.t_px << (candidate.column + 0.5) * map_->cell_px() - 0.5,
+        (candidate.row + 0.5) * map_->cell_px() - 0.5;
+    pose.a = turn.scale * rotation(turn.angle_rad);
+    return pose;
+}
+
+double ShapeSearch::mean_distance(const Pose& pose) const {
+    int sum = 0;
+    for (const Sample& sample : fine_) {
+        const Eigen::Vector2d p = (pose.t_px + pose.a * sample.at_px) / map_->cell_px();
+        sum += map_->distance(static_cast<int>(std::lround(p.x())),
+                              static_cast<int>(std::lround(p.y())));
+    }
+    return static_cast<double>(sum) / fine_points;
+}
+
+// Downhill along one direction after another, with steps that shrink.
+Pose ShapeSearch::fitted(Pose pose) const {
+    double best = mean_distance(pose);
+    const double rim_px = std::max(radius_px_, 4.0);
+    for (double step_px = 2; step_px > 0.4; step_px /= 2) {
+        for (int round = 0; round < 3; ++round) {
+            bool has_moved = false;
+            for (int direction = 0; direction < (range_.log_scale > 0 ? 8 : 6); ++direction) {
+                Pose tried = pose;
+                const double sign = direction % 2 == 0 ? 1 : -1;
+                if (direction < 2) tried.t_px.x() += sign * step_px;
+                if (direction / 2 == 1) tried.t_px.y() += sign * step_px;
+                if (direction / 2 == 2) tried.a = rotation(sign * step_px / rim_px) * pose.a;
+                if (direction / 2 == 3) tried.a = pose.a * (1 + sign * step_px / rim_px);
+                const double value = mean_distance(tried);
+                if (value < best) {
+                    best = value;
+                    pose = tried;
+                    has_moved = true;
+                }
+            }
+            if (!has_moved) break;
+        }
+    }
+    return pose;
+}
+
+double ShapeSearch::score(const Pose& pose) const {
+    double hits = 0;
+    double chance = 0;
+    const auto has_fired = [&](const Eigen::Vector2d& p_px) {
+        const Eigen::Vector2d p = p_px / map_->cell_px();
+        return map_->distance(static_cast<int>(std::lround(p.x())),
+                              static_cast<int>(std::lround(p.y()))) <= hit * 3
+                   ? 1.0
+                   : 0.0;
+    };
+    for (const Sample& sample : fine_) {
+        const Eigen::Vector2d p = pose.t_px + pose.a * sample.at_px;
+        const Eigen::Vector2d off = beside * (pose.a * sample.normal_px).normalized();
+        hits += has_fired(p) / fine_points;
+        chance += (has_fired(p + off) + has_fired(p - off)) / (2 * fine_points);
+    }
+    return (hits - chance) / std::max(1 - chance, 0.1);
+}
+
+}  // namespace pursuit::tracker

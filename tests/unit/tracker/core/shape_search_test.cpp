@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/shape_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include "services/tracker/core/tracker.hpp"
+#include "tests/unit/tracker/core/scene.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+constexpr Geometry geometry{304, 240};
+
+/// The outline's pixels under a pose, and `noise` pixels anywhere.
+std::vector<Event> fired(const Shape& shape, const Pose& pose, int noise, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    std::vector<Event> events;
+    const auto put = [&](double x, double y) {
+        if (x < 0 || y < 0 || x > geometry.width - 1 || y > geometry.height - 1) return;
+        events.push_back({0, static_cast<std::uint16_t>(std::lround(x)),
+                          static_cast<std::uint16_t>(std::lround(y)), 1});
+    };
+    for (const Edge& edge : shape.edges) {
+        const Eigen::Vector2d middle =
+            (shape.points_px[edge.from] + shape.points_px[edge.to]).cast<double>() / 2;
+        const Eigen::Vector2d p = pose.t_px + pose.a * middle;
+        put(p.x(), p.y());
+    }
+    for (int i = 0; i < noise; ++i) put(random() % geometry.width, random() % geometry.height);
+    return events;
+}
+
+std::optional<ShapeSearch::Found> search(const Shape& shape, const std::vector<Event>& events,
+                                         const SearchRange& range, int slice = 1 << 30) {
+    FiredMap map;
+    map.build(geometry, events);
+    ShapeSearch search{Contour(shape)};
+    search.begin(map, range);
+    while (!search.is_done()) search.step(slice);
+    return search.found();
+}
+
+SearchRange anywhere() {
+    SearchRange range;
+    range.around.t_px << 152, 120;
+    range.reach_px = 304;
+    range.angle_rad = std::numbers::pi;
+    range.log_scale = 0.27;
+    range.usual_distance_px = 1e6;
+    return range;
+}
+
+TEST(FiredMap, has_the_chamfer_distance_to_the_nearest_pixel_that_fired) {
+    std::mt19937 random(3);
+    std::vector<Event> events;
+    for (int i = 0; i < 60; ++i) {
+        events.push_back({i, static_cast<std::uint16_t>(random() % 304),
+                          static_cast<std::uint16_t>(random() % 240), 1});
+    }
+    FiredMap map;
+    map.build(geometry, events);
+    for (int y = 0; y < 240; y += 7) {
+        for (int x = 0; x < 304; x += 5) {
+            int best = FiredMap::farthest;
+            for (const Event& event : events) {
+                const int dx = std::abs(event.x - x);
+                const int dy = std::abs(event.y - y);
+                best = std::min(best, 3 * std::max(dx, dy) + std::min(dx, dy));
+            }
+            ASSERT_EQ(map.distance(x, y), best) << x << " " << y;
+        }
+    }
+    EXPECT_EQ(map.distance(-1, 0), FiredMap::farthest);
+    EXPECT_EQ(map.around(152, 120, 1000).fired, 60);
+}
+
+TEST(FiredMap, of_a_large_image_has_cells_of_several_pixels) {
+    FiredMap map;
+    map.build({1280, 720}, std::vector<Event>{{0, 1279, 719, 1}});
+    EXPECT_LE(map.columns() * map.rows(), 100'000);
+    EXPECT_EQ(map.distance(map.columns() - 1, map.rows() - 1), 0);
+}
+
+TEST(ShapeSearch, finds_a_shape_at_any_place_angle_and_size) {
+    const Shape arrow = test::arrow();
+    for (std::uint32_t seed = 0; seed < 12; ++seed) {
+        const Pose truth = pose_of(60 + 15 * seed, 180 - 10 * seed, 0.5 * seed, 0.75 + 0.045 * seed,
+                                   0.75 + 0.045 * seed);
+        const auto found = search(arrow, fired(arrow, truth, 100, seed), anywhere());
+        ASSERT_TRUE(found) << seed;
+        EXPECT_LT(test::rms_px(arrow, found->pose, truth), 3) << seed;
+    }
+}
+
+TEST(ShapeSearch, takes_no_noise_and_no_other_shape_for_it) {
+    const Shape arrow = test::arrow();
+    const Shape box = test::polygon("box", {{-40, -30}, {40, -30}, {40, 30}, {-40, 30}});
+    EXPECT_FALSE(search(arrow, {}, anywhere()));
+    EXPECT_FALSE(search(arrow, fired(arrow, pose_of(-500, 0, 0), 6000, 1), anywhere()));
+    EXPECT_FALSE(search(arrow, fired(box, pose_of(150, 120, 0.3), 100, 2), anywhere()));
+}
+
+TEST(ShapeSearch, finds_the_same_in_slices_as_at_once) {
+    const Shape arrow = test::arrow();
+    const auto events = fired(arrow, pose_of(100, 90, 1), 500, 5);
+    const auto at_once = search(arrow, events, anywhere());
+    const auto in_slices = search(arrow, events, anywhere(), 7);
+    ASSERT_TRUE(at_once && in_slices);
+    EXPECT_EQ(at_once->pose, in_slices->pose);
+}
+
+TEST(ShapeSearch, of_two_the_same_takes_the_nearer) {
+    const Shape arrow = test::arrow();
+    auto events = fired(arrow, pose_of(100, 90, 0), 0, 6);
+    const auto other = fired(arrow, pose_of(160, 150, 0), 0, 7);
+    events.insert(events.end(), other.begin(), other.end());
+    SearchRange near = anywhere();
+    near.around = pose_of(150, 140, 0);
+    near.reach_px = 80;
+    near.angle_rad = 0.5;
+    near.log_scale = 0;
+    near.usual_distance_px = 20;
+    const auto found = search(arrow, events, near);
+    ASSERT_TRUE(found);
+    EXPECT_LT((found->pose.t_px - Eigen::Vector2d(160, 150)).norm(), 3);
+}
+
+TEST(Search, finds_a_registered_shape_that_enters_and_then_follows_it) {
+    const Shape arrow = test::arrow();
+    const auto truth = [](double t_us) {
+        return pose_of(20 + 150e-6 * t_us, 100 + 20e-6 * t_us, 0.8, 1, 1);
+    };
+    Tracker tracker = std::move(*Tracker::create({}));
+    tracker.begin_stream(geometry, 1);
+    Registration registration;
+    registration.shape = arrow;
+    registration.transform = TransformKind::similarity;
+    registration.estimator = EstimatorKind::kalman;
+    registration.start.search = true;
+    ASSERT_TRUE(tracker.register_object(registration));
+    test::Poses poses;
+    // Half in view at the start.
+    tracker.process(test::outline_events(arrow, truth, 0, 800'000, 60, 5, geometry, 1), poses);
+    std::int64_t found_us = -1;
+    for (const auto& row : poses.rows) {
+        const double off_px =
+            test::rms_px(arrow, row.record.pose, truth(static_cast<double>(row.record.t_us)));
+        if (row.record.state != TrackState::tracking) {
+            EXPECT_EQ(row.record.confidence, 0) << row.record.t_us;
+            continue;
+        }
+        if (found_us < 0) found_us = row.record.t_us;
+        EXPECT_FALSE(row.record.confidence > 0.5F && off_px > 10) << row.record.t_us;
+    }
+    // Wholly in view from 0.1 s on.
+    EXPECT_GT(found_us, 0);
+    EXPECT_LT(found_us, 300'000);
+    EXPECT_LT(test::rms_px(arrow, poses.rows.back().record.pose, truth(8e5)), 1);
+}
+
+}  // namespace
+}  // namespace pursuit::tracker
