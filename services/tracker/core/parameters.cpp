@@ -43,6 +43,33 @@ constexpr std::array strategy_table{
         "an event this near to two objects or more is given by the strategy"},
     Parameter<StrategyParameters>{"temporal_events", &StrategyParameters::temporal_events, 2, 10000,
                                   "events", "N of (3.12): events that an object's rate is over"},
+    Parameter<StrategyParameters>{"plane_window_s", &StrategyParameters::plane_window_s, 0.001, 10,
+                                  "s", "of (3.14): the time that an object's plane is laid over"},
+    Parameter<StrategyParameters>{"plane_time_px_s", &StrategyParameters::plane_time_px_s, 1, 1e5,
+                                  "px/s", "c of (3.14): how far a second is from another"},
+    Parameter<StrategyParameters>{
+        "plane_in_sigma", &StrategyParameters::plane_in_sigma, 0, 1, "0 or 1",
+        "1: an event's distance to a plane is in units of the plane's own spread; 0: in px"},
+    Parameter<StrategyParameters>{
+        "plane_takes_all", &StrategyParameters::plane_takes_all, 0, 1, "0 or 1",
+        "1: a plane is laid over every event near its object; 0: over those the object took"},
+    Parameter<StrategyParameters>{
+        "plane_last_per_pixel", &StrategyParameters::plane_last_per_pixel, 0, 1, "0 or 1",
+        "1: of a pixel's events only the last counts for a plane; 0: every one"},
+    Parameter<StrategyParameters>{
+        "plane_filters_unambiguous", &StrategyParameters::plane_filters_unambiguous, 0, 1, "0 or 1",
+        "1: events near one object alone are left out beyond plane_reach of its plane"},
+    Parameter<StrategyParameters>{
+        "plane_filters_background", &StrategyParameters::plane_filters_background, 0, 1, "0 or 1",
+        "1: ambiguous events are left out beyond plane_reach of the nearest plane"},
+    Parameter<StrategyParameters>{"plane_reach", &StrategyParameters::plane_reach, 0, 1000,
+                                  "sigma or px",
+                                  "how far from a plane an event may be filtered in"},
+    Parameter<StrategyParameters>{"plane_refit_s", &StrategyParameters::plane_refit_s, 0, 1, "s",
+                                  "how old a plane may be before it is laid anew"},
+    Parameter<StrategyParameters>{
+        "plane_events", &StrategyParameters::plane_events, 20, 65'536, "events",
+        "the most events a plane is laid over; with more, its time is shorter than plane_window_s"},
 };
 
 std::string shown(double value) {
@@ -99,6 +126,10 @@ Preset paper() {
     preset.object.gradient_position_gain = 0.1;
     preset.object.gradient_angle_gain_rad_px2 = 2e-5;
     preset.object.gradient_scale_gain_1_px = 1e-5;
+    preset.strategy_parameters.plane_window_s = 3;
+    preset.strategy_parameters.plane_in_sigma = 0;
+    preset.strategy_parameters.plane_takes_all = 0;
+    preset.strategy_parameters.plane_last_per_pixel = 1;
     return preset;
 }
 

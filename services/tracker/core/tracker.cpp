@@ -135,8 +135,11 @@ class Tracker::Impl {
     // Sets the weights of the claims: an event that is ambiguous, near two objects or more, is the
     // strategy's to give, any other the closest object's.
     void give(const Event& event) {
+        if (claims.empty()) return;
+        strategy->near(event, claims);
         if (claims.size() < 2) {
-            if (!claims.empty()) claims[0].weight = 1;
+            claims[0].weight = 1;
+            strategy->confirm(event, claims[0]);
             return;
         }
         const double near_px = ambiguity_px;
@@ -144,6 +147,9 @@ class Tracker::Impl {
         const auto near_count = std::count_if(claims.begin(), claims.end(), is_near);
         if (near_count < 2) {
             Closest().assign(event, claims);
+            for (Claim& claim : claims) {
+                if (claim.weight > 0) strategy->confirm(event, claim);
+            }
             return;
         }
         if (static_cast<std::size_t>(near_count) == claims.size()) {
@@ -219,6 +225,7 @@ void Tracker::begin_stream(Geometry geometry, std::uint64_t stream_id) {
     impl_->grid.restart();
     impl_->recent.restart(geometry);
     impl_->seeker.restart(geometry);
+    impl_->strategy->restart();
     for (Track& track : impl_->tracks) track.begin_stream();
 }
 
@@ -270,6 +277,7 @@ CallResult<void> Tracker::remove_object(std::string_view name) {
     impl_->hold([impl = impl_.get(), object_id = *removed] {
         std::erase_if(impl->tracks,
                       [&](const Track& track) { return track.object_id() == object_id; });
+        impl->strategy->forget(object_id);
     });
     return {};
 }
@@ -279,6 +287,7 @@ CallResult<void> Tracker::set_pose(std::string_view name, const Start& start) {
     if (!changed) return tl::unexpected(changed.error());
     impl_->hold([impl = impl_.get(), object = **changed] {
         if (Track* track = impl->find_track(object.object_id)) track->restart(object);
+        impl->strategy->forget(object.object_id);
     });
     return {};
 }

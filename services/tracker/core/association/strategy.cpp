@@ -3,6 +3,7 @@
 
 #include "services/tracker/core/association/by_distance.hpp"
 #include "services/tracker/core/association/probabilistic.hpp"
+#include "services/tracker/core/association/spatiotemporal.hpp"
 #include "services/tracker/core/association/temporal.hpp"
 
 namespace pursuit::tracker {
@@ -28,6 +29,10 @@ constexpr Line table[] = {
     {StrategyKind::temporal,
      [](const Parameters& parameters) -> std::unique_ptr<Strategy> {
          return std::make_unique<Temporal>(static_cast<std::size_t>(parameters.temporal_events));
+     }},
+    {StrategyKind::spatiotemporal,
+     [](const Parameters& parameters) -> std::unique_ptr<Strategy> {
+         return std::make_unique<Spatiotemporal>(parameters);
      }},
     {StrategyKind::probabilistic, plain<Probabilistic>},
 };

@@ -26,14 +26,32 @@ class Strategy {
  public:
     virtual ~Strategy() = default;
 
+    /// Hears of every event within the gate of an object or more, before it is given.
+    virtual void near(const Event& event, std::span<const Claim> claims) {
+        static_cast<void>(event);
+        static_cast<void>(claims);
+    }
+
     /// Sets the weight of each claim; there are two or more, in order of object ids.
     virtual void assign(const Event& event, std::span<Claim> claims) = 0;
+
+    /// An event that is not ambiguous goes to this object; its weight may be taken back.
+    virtual void confirm(const Event& event, Claim& claim) {
+        static_cast<void>(event);
+        static_cast<void>(claim);
+    }
 
     /// Hears of every claim that moved its object, ambiguous or not.
     virtual void used(const Event& event, const Claim& claim) {
         static_cast<void>(event);
         static_cast<void>(claim);
     }
+
+    /// The object is gone or begins anew.
+    virtual void forget(std::uint32_t object_id) { static_cast<void>(object_id); }
+
+    /// Event time begins anew.
+    virtual void restart() {}
 };
 
 std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const StrategyParameters& parameters);

@@ -42,6 +42,11 @@ void Temporal::assign(const Event& event, std::span<Claim> claims) {
     best->weight = 1;
 }
 
+void Temporal::forget(std::uint32_t object_id) {
+    std::erase_if(histories_,
+                  [&](const History& history) { return history.object_id == object_id; });
+}
+
 void Temporal::used(const Event& event, const Claim& claim) {
     auto* history = const_cast<History*>(find(claim.object_id));
     if (history == nullptr) {

@@ -16,6 +16,8 @@ class Temporal : public Strategy {
 
     void assign(const Event& event, std::span<Claim> claims) override;
     void used(const Event& event, const Claim& claim) override;
+    void forget(std::uint32_t object_id) override;
+    void restart() override { histories_.clear(); }
 
  private:
     /// The times of an object's last N events, in a ring.

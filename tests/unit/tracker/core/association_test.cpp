@@ -136,6 +136,7 @@ TEST_P(TwoArrows, are_moved_by_an_ambiguous_event_as_the_strategy_says) {
             break;
         case StrategyKind::closest:
         case StrategyKind::temporal:
+        case StrategyKind::spatiotemporal:
             EXPECT_EQ(moved, 1U);
             break;
         default:
@@ -152,17 +153,9 @@ TEST_P(TwoArrows, are_moved_by_an_ambiguous_event_as_the_strategy_says) {
 INSTANTIATE_TEST_SUITE_P(EveryStrategy, TwoArrows,
                          testing::Values(StrategyKind::closest, StrategyKind::reject_all,
                                          StrategyKind::update_all, StrategyKind::weighted,
-                                         StrategyKind::temporal, StrategyKind::probabilistic),
+                                         StrategyKind::temporal, StrategyKind::spatiotemporal,
+                                         StrategyKind::probabilistic),
                          [](const auto& made) { return std::string(to_string(made.param)); });
-
-TEST(Strategies, that_are_not_built_yet_are_refused_by_name) {
-    Tracker tracker = std::move(*Tracker::create({}));
-    const auto refused = tracker.set_strategy(StrategyKind::spatiotemporal, {});
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().status, CallStatus::unsupported);
-    EXPECT_NE(refused.error().message.find("spatiotemporal"), std::string::npos);
-    EXPECT_EQ(tracker.settings().strategy, StrategyKind::closest);
-}
 
 }  // namespace
 }  // namespace pursuit::tracker
