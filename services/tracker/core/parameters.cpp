@@ -51,8 +51,8 @@ constexpr std::array strategy_table{
         "plane_in_sigma", &StrategyParameters::plane_in_sigma, 0, 1, "0 or 1",
         "1: an event's distance to a plane is in units of the plane's own spread; 0: in px"},
     Parameter<StrategyParameters>{
-        "plane_takes_all", &StrategyParameters::plane_takes_all, 0, 1, "0 or 1",
-        "1: a plane is laid over every event near its object; 0: over those the object took"},
+        "plane_feed", &StrategyParameters::plane_feed, 0, 2, "0, 1, 2",
+        "a plane is laid over the events 0: that its object took, 1: near it, 2: near it alone"},
     Parameter<StrategyParameters>{
         "plane_last_per_pixel", &StrategyParameters::plane_last_per_pixel, 0, 1, "0 or 1",
         "1: of a pixel's events only the last counts for a plane; 0: every one"},
@@ -128,7 +128,7 @@ Preset paper() {
     preset.object.gradient_scale_gain_1_px = 1e-5;
     preset.strategy_parameters.plane_window_s = 3;
     preset.strategy_parameters.plane_in_sigma = 0;
-    preset.strategy_parameters.plane_takes_all = 0;
+    preset.strategy_parameters.plane_feed = 0;
     preset.strategy_parameters.plane_last_per_pixel = 1;
     return preset;
 }

@@ -43,10 +43,10 @@ struct TrackerParameters {
 struct StrategyParameters {
     double ambiguity_px = 3;
     double temporal_events = 50;
-    double plane_window_s = 0.5;
+    double plane_window_s = 1;
     double plane_time_px_s = 300;
     double plane_in_sigma = 1;
-    double plane_takes_all = 1;
+    double plane_feed = 2;
     double plane_last_per_pixel = 0;
     double plane_filters_unambiguous = 0;
     double plane_filters_background = 0;

@@ -11,19 +11,30 @@ namespace {
 // Fewer say nothing about a plane.
 constexpr std::uint64_t least_events = 20;
 
+// StrategyParameters::plane_feed; every other value: every event near the object.
+constexpr double feed_taken = 0;
+constexpr double feed_unambiguous = 2;
+
 std::int64_t whole_us(double s) { return static_cast<std::int64_t>(s * 1e6); }
 
 }  // namespace
 
 void Spatiotemporal::near(const Event& event, std::span<const Claim> claims) {
-    if (parameters_.plane_takes_all == 0) return;
+    if (parameters_.plane_feed == feed_taken) return;
+    const auto is_near = [&](const Claim& claim) {
+        return claim.distance_px <= parameters_.ambiguity_px;
+    };
+    if (parameters_.plane_feed == feed_unambiguous &&
+        std::count_if(claims.begin(), claims.end(), is_near) > 1) {
+        return;
+    }
     for (const Claim& claim : claims) {
-        if (claim.distance_px <= parameters_.ambiguity_px) feed(event, claim.object_id);
+        if (is_near(claim)) feed(event, claim.object_id);
     }
 }
 
 void Spatiotemporal::used(const Event& event, const Claim& claim) {
-    if (parameters_.plane_takes_all == 0) feed(event, claim.object_id);
+    if (parameters_.plane_feed == feed_taken) feed(event, claim.object_id);
 }
 
 void Spatiotemporal::assign(const Event& event, std::span<Claim> claims) {

@@ -15,9 +15,9 @@ namespace pursuit::tracker {
 /// window finds; the event goes to the object whose plane is nearest.
 ///
 /// Two readings, by StrategyParameters: the paper's distance in px or in units of the plane's own
-/// spread; and planes fed with what their object takes, as in the paper, or with every event near
-/// the object. Fed with what it takes alone, an object that loses the events of a while no longer
-/// knows the plane that they lie in.
+/// spread; and planes fed with what their object takes, as in the paper, with every event near the
+/// object, or with those near it alone. Fed with every event, where two objects cross for long each
+/// plane becomes a little of the other's; fed with what it takes, the plane follows its own errors.
 ///
 /// An object has a plane once its window was fed for its whole length; as long as one of the
 /// objects asked has none, the closest takes the event. A window that ran empty begins anew.

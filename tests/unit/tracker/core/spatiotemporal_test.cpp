@@ -177,7 +177,7 @@ class TwoPlanes : public testing::Test {
     explicit TwoPlanes() {
         parameters_.plane_window_s = 0.05;
         parameters_.plane_time_px_s = 1000;
-        parameters_.plane_takes_all = 0;
+        parameters_.plane_feed = 0;
     }
 
     void feed(Strategy& strategy, int ms, double second_spread_px = 0) {
@@ -231,32 +231,31 @@ TEST_F(TwoPlanes, measure_in_px_or_in_their_own_spread) {
     EXPECT_EQ(given(in_sigma, {100'000, 130, 30, 1}, {1, 1}), (Weights{0, 1}));
 }
 
-TEST_F(TwoPlanes, are_fed_by_every_event_near_or_by_those_taken_as_selected) {
-    for (const bool takes_all : {false, true}) {
-        parameters_.plane_takes_all = takes_all ? 1 : 0;
+TEST_F(TwoPlanes, are_fed_by_what_is_taken_or_near_or_near_alone_as_selected) {
+    parameters_.plane_in_sigma = 0;
+    const auto given_after = [&](double feed, double from_second_px,
+                                 std::vector<double> distances_px) {
+        parameters_.plane_feed = feed;
         Spatiotemporal strategy(parameters_);
         for (const Event& event : edge_events(0, 100)) {
-            // Near object 1, 5 px from object 2: beyond ambiguity_px.
-            const std::vector<Claim> claims{{1, 2}, {2, 5}};
-            strategy.near(event, claims);
+            const std::vector<Claim> first{{1, 2}, {2, from_second_px}};
+            strategy.near(event, first);
             auto ahead = event;
             ahead.x = static_cast<std::uint16_t>(ahead.x + 40);
-            strategy.used(ahead, {2, 0});
+            const std::vector<Claim> second{{2, 1}};
+            strategy.near(ahead, second);
         }
-        // One of the two has no plane: the closest.
-        EXPECT_EQ(given(strategy, {100'000, 115, 30, 1}, {2.5, 0.5}), (Weights{0, 1}));
-    }
-    parameters_.plane_takes_all = 1;
-    Spatiotemporal strategy(parameters_);
-    for (const Event& event : edge_events(0, 100)) {
-        const std::vector<Claim> first{{1, 2}, {2, 5}};
-        strategy.near(event, first);
-        auto ahead = event;
-        ahead.x = static_cast<std::uint16_t>(ahead.x + 40);
-        const std::vector<Claim> second{{2, 1}};
-        strategy.near(ahead, second);
-    }
-    EXPECT_EQ(given(strategy, {100'000, 115, 30, 1}, {2.5, 0.5}), (Weights{1, 0}));
+        return given(strategy, {100'000, 115, 30, 1}, std::move(distances_px));
+    };
+    // The first edge's events are 3.5 px from object 2, beyond ambiguity_px: each object has its
+    // own edge's plane, unless nothing counts but what is taken.
+    EXPECT_EQ(given_after(0, 3.5, {2.5, 0.5}), (Weights{0, 1}));  // the closest's
+    EXPECT_EQ(given_after(1, 3.5, {2.5, 0.5}), (Weights{1, 0}));
+    EXPECT_EQ(given_after(2, 3.5, {2.5, 0.5}), (Weights{1, 0}));
+    // They are ambiguous: object 2 gets both edges, whose least variance is in y, and the event
+    // lies 0.5 px from the middle there. Without them object 1 has no plane.
+    EXPECT_EQ(given_after(1, 2.5, {0.5, 2.5}), (Weights{0, 1}));
+    EXPECT_EQ(given_after(2, 2.5, {0.5, 2.5}), (Weights{1, 0}));  // the closest's
 }
 
 TEST_F(TwoPlanes, filter_unambiguous_events_and_background_only_where_selected) {
@@ -364,7 +363,7 @@ TEST(PaperPreset, has_the_paper_s_reading_of_the_planes) {
     const StrategyParameters& parameters = (*preset)->strategy_parameters;
     EXPECT_EQ(parameters.plane_window_s, 3);
     EXPECT_EQ(parameters.plane_in_sigma, 0);
-    EXPECT_EQ(parameters.plane_takes_all, 0);
+    EXPECT_EQ(parameters.plane_feed, 0);
     EXPECT_EQ(parameters.plane_last_per_pixel, 1);
 }
 
