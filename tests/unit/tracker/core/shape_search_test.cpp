@@ -26,7 +26,10 @@ std::vector<Event> fired(const Shape& shape, const Pose& pose, int noise, std::u
         const Eigen::Vector2d p = pose.t_px + pose.a * middle;
         put(p.x(), p.y());
     }
-    for (int i = 0; i < noise; ++i) put(random() % geometry.width, random() % geometry.height);
+    for (int i = 0; i < noise; ++i) {
+        put(static_cast<double>(random() % geometry.width),
+            static_cast<double>(random() % geometry.height));
+    }
     return events;
 }
 
