@@ -2,31 +2,47 @@
 #include "services/sensor/formats/dat_reader.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
-#include <type_traits>
 #include <utility>
 
 #include "services/sensor/formats/dat_header.hpp"
+#include "services/sensor/formats/event_lanes.hpp"
+#include "services/sensor/formats/records.hpp"
 
 namespace pursuit::sensor {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the decoder reads words as they lie");
-
 constexpr std::size_t event_bytes = 8;
 constexpr Geometry atis{304, 240};
 
+/// The parts of an address, or of four side by side.
 struct Version1 {
-    static constexpr std::uint32_t x(std::uint32_t address) { return address & 0x1ff; }
-    static constexpr std::uint32_t y(std::uint32_t address) { return (address >> 9) & 0xff; }
-    static constexpr std::uint32_t polarity(std::uint32_t address) { return (address >> 17) & 1; }
+    template <class Address>
+    static Address x(Address address) {
+        return address & 0x1ff;
+    }
+    template <class Address>
+    static Address y(Address address) {
+        return shift_right(address, 9) & 0xff;
+    }
+    template <class Address>
+    static Address polarity(Address address) {
+        return shift_right(address, 17) & 1;
+    }
 };
 
 struct Version2 {
-    static constexpr std::uint32_t x(std::uint32_t address) { return address & 0x3fff; }
-    static constexpr std::uint32_t y(std::uint32_t address) { return (address >> 14) & 0x3fff; }
-    static constexpr std::uint32_t polarity(std::uint32_t address) { return address >> 28; }
+    template <class Address>
+    static Address x(Address address) {
+        return address & 0x3fff;
+    }
+    template <class Address>
+    static Address y(Address address) {
+        return shift_right(address, 14) & 0x3fff;
+    }
+    template <class Address>
+    static Address polarity(Address address) {
+        return shift_right(address, 28);
+    }
 };
 
 struct Word {
@@ -34,11 +50,7 @@ struct Word {
     std::uint32_t address;
 };
 
-Word word_at(const std::uint8_t* bytes) {
-    Word word;
-    std::memcpy(&word, bytes, sizeof word);
-    return word;
-}
+Word word_at(const std::uint8_t* bytes) { return load<Word>(bytes); }
 
 template <class Version>
 class DatReader final : public EventReader {
@@ -51,19 +63,13 @@ class DatReader final : public EventReader {
  protected:
     Decoded decode(std::span<Event> events, std::span<Event> /*exposures*/) override {
         Decoded done;
-        const auto ahead = bytes_.ahead(event_bytes);
-        if (!ahead) {
-            done.error = ahead.error();
+        const auto records = records_ahead(bytes_, event_bytes, "an event");
+        if (!records) {
+            done.error = records.error();
             return done;
         }
-        const auto whole = ahead->size() / event_bytes;
-        if (whole == 0 && !ahead->empty()) {
-            done.error = error_at(bytes_.name(), bytes_.offset(),
-                                  "the file ends within an event, after " +
-                                      std::to_string(ahead->size()) + " of 8 bytes");
-        }
-        events = events.first(std::min(whole, events.size()));
-        const auto* bytes = ahead->data();
+        events = events.first(std::min(records->size() / event_bytes, events.size()));
+        const auto* bytes = records->data();
         while (done.count < events.size() && !done.error) {
             const auto wanted = std::min(events.size() - done.count, block_events);
             const auto good = decode_block(bytes, events.subspan(done.count, wanted));
@@ -88,24 +94,28 @@ class DatReader final : public EventReader {
     /// Decodes events until the first bad one and returns how many are good. The common case has
     /// no branch: only a block that breaks a rule, or wraps, is looked at event by event.
     std::size_t decode_block(const std::uint8_t* bytes, std::span<Event> events) {
-        const std::uint32_t width = geometry_.width;
-        const std::uint32_t height = geometry_.height;
-        std::uint32_t last = last_t_us_;
-        std::uint32_t bad = 0;
-        for (std::size_t i = 0; i < events.size(); ++i) {
-            const Word word = word_at(bytes + i * event_bytes);
-            const auto x = Version::x(word.address);
-            const auto y = Version::y(word.address);
-            const auto polarity = Version::polarity(word.address);
-            bad |= static_cast<std::uint32_t>(word.t_us < last) |
-                   static_cast<std::uint32_t>(x >= width) |
-                   static_cast<std::uint32_t>(y >= height) | (polarity >> 1);
-            last = word.t_us;
-            store(events[i], epoch_us_ + word.t_us, x, y, polarity);
+        const auto width = lanes_of(geometry_.width);
+        const auto height = lanes_of(geometry_.height);
+        const auto epoch = lanes_of(static_cast<std::uint32_t>(epoch_us_ >> 32));
+        const auto fours = events.size() / 4 * 4;
+        auto last = static_cast<std::int32_t>(last_t_us_);
+        Lanes bad = {};
+        for (std::size_t i = 0; i < fours; i += 4) {
+            const auto first = load_lanes(bytes + i * event_bytes);
+            const auto second = load_lanes(bytes + (i + 2) * event_bytes);
+            const auto t_us = __builtin_shufflevector(first, second, 0, 2, 4, 6);
+            const auto address = __builtin_shufflevector(first, second, 1, 3, 5, 7);
+            const auto x = Version::x(address);
+            const auto y = Version::y(address);
+            const auto polarity = Version::polarity(address);
+            bad |= less_unsigned(t_us, moved_on(t_us, last)) | (x >= width) | (y >= height) |
+                   (polarity > 1);
+            last = t_us[3];
+            store_four(&events[i], t_us, epoch, x, y, polarity);
         }
-        if (bad != 0) return decode_one_by_one(bytes, events);
-        last_t_us_ = last;
-        return events.size();
+        if (any(bad)) return decode_one_by_one(bytes, events);
+        last_t_us_ = static_cast<std::uint32_t>(last);
+        return fours + decode_one_by_one(bytes + fours * event_bytes, events.subspan(fours));
     }
 
     std::size_t decode_one_by_one(const std::uint8_t* bytes, std::span<Event> events) {
@@ -123,29 +133,15 @@ class DatReader final : public EventReader {
         return events.size();
     }
 
-    /// Two stores of 8 bytes instead of one a member.
-    static void store(Event& event, std::int64_t t_us, std::uint32_t x, std::uint32_t y,
-                      std::uint32_t polarity) {
-        static_assert(sizeof(Event) == 16 && std::is_trivially_copyable_v<Event> &&
-                      offsetof(Event, x) == 8 && offsetof(Event, y) == 10 &&
-                      offsetof(Event, polarity) == 12);
-        const std::uint64_t words[2] = {static_cast<std::uint64_t>(t_us),
-                                        x | y << 16 | std::uint64_t{polarity} << 32};
-        std::memcpy(static_cast<void*>(&event), words, sizeof words);
-    }
-
     Error describe(Word word) const {
         std::string cause;
         if (fits(word)) {
-            cause = "time goes back from " + std::to_string(last_t_us_) + " to " +
-                    std::to_string(word.t_us) + " us";
+            cause = time_goes_back(last_t_us_, word.t_us);
         } else if (Version::polarity(word.address) > 1) {
             cause =
                 "polarity " + std::to_string(Version::polarity(word.address)) + " is not 0 or 1";
         } else {
-            cause = "pixel (" + std::to_string(Version::x(word.address)) + ", " +
-                    std::to_string(Version::y(word.address)) + ") is outside " +
-                    std::to_string(geometry_.width) + "x" + std::to_string(geometry_.height);
+            cause = outside(Version::x(word.address), Version::y(word.address), geometry_);
             if (!geometry_is_stated_) cause += ", assumed because the header states no size";
         }
         return error_at(bytes_.name(), bytes_.offset(), cause);

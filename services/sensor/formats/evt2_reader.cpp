@@ -6,10 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "services/sensor/formats/event_lanes.hpp"
+
 namespace pursuit::sensor {
 namespace {
 
 constexpr std::size_t word_bytes = 4;
+constexpr std::ptrdiff_t four_words = 16;
 
 enum Kind : std::uint32_t { off = 0, on = 1, time_high = 8, trigger = 10, others = 14, more = 15 };
 
@@ -53,21 +56,58 @@ class Evt2Reader final : public EventReader {
                                       std::span<Event> events, std::size_t& count) {
         auto* event = events.data() + count;
         const auto* const events_end = events.data() + events.size();
-        const std::uint32_t width = settings_.geometry.width;
-        const std::uint32_t height = settings_.geometry.height;
-        auto last_t_us = last_t_us_;
-        for (; at != end && event != events_end; at += word_bytes) {
-            const auto word = load<std::uint32_t>(at);
-            const auto x = word >> 11 & 0x7ff;
-            const auto y = word & 0x7ff;
-            const auto t_us = base_us_ + (word >> 22 & 63);
-            if (word >> 28 > on || x >= width || y >= height || t_us < last_t_us) break;
-            store(*event++, t_us, x, y, word >> 28);
-            last_t_us = t_us;
-        }
-        last_t_us_ = last_t_us;
+        // Times within TIME_HIGH: beyond its 64 us where TIME_HIGH has gone back.
+        auto last = static_cast<std::uint32_t>(std::min<std::int64_t>(last_t_us_ - base_us_, 64));
+        int taken = 0;
+        do {
+            while (end - at >= four_words && events_end - event >= 4 &&
+                   take_four(at, event, last)) {
+                at += four_words;
+                event += 4;
+            }
+            // One of the next four is no good event, or there are not as many.
+            for (taken = 0; taken < 4 && at != end && event != events_end; ++taken) {
+                if (!take_one(at, event, last)) break;
+                at += word_bytes;
+                ++event;
+            }
+        } while (taken == 4);
+        if (event != events.data() + count) last_t_us_ = base_us_ + last;
         count = static_cast<std::size_t>(event - events.data());
         return at;
+    }
+
+    /// Decodes four events, unless one is no event, bad, or earlier than the one before it.
+    bool take_four(const std::uint8_t* at, Event* event, std::uint32_t& last) const {
+        const auto words = load_lanes(at);
+        const auto kind = shift_right(words, 28);
+        const auto time = shift_right(words, 22) & lanes_of(63);
+        const auto x = shift_right(words, 11) & lanes_of(0x7ff);
+        const auto y = words & lanes_of(0x7ff);
+        const auto before = moved_on(time, static_cast<std::int32_t>(last));
+        if (any((kind > lanes_of(on)) | (x >= lanes_of(settings_.geometry.width)) |
+                (y >= lanes_of(settings_.geometry.height)) | (time < before))) {
+            return false;
+        }
+        const auto low = static_cast<std::uint32_t>(base_us_);
+        const auto high = static_cast<std::uint32_t>(base_us_ >> 32);
+        store_four(event, time | lanes_of(low), lanes_of(high), x, y, kind);
+        last = static_cast<std::uint32_t>(time[3]);
+        return true;
+    }
+
+    bool take_one(const std::uint8_t* at, Event* event, std::uint32_t& last) const {
+        const auto word = load<std::uint32_t>(at);
+        const auto time = word >> 22 & 63;
+        const auto x = word >> 11 & 0x7ff;
+        const auto y = word & 0x7ff;
+        if (word >> 28 > on || x >= settings_.geometry.width || y >= settings_.geometry.height ||
+            time < last) {
+            return false;
+        }
+        store(*event, base_us_ + time, x, y, word >> 28);
+        last = time;
+        return true;
     }
 
     /// Takes a word that decode_events() left: of another kind, or an event that is bad, skipped

@@ -27,11 +27,6 @@ enum Kind : std::uint32_t {
     more_12 = 15
 };
 
-/// Three in four words are of one of these.
-constexpr bool is_frequent(std::uint32_t kind) {
-    return ((1U << addr_y | 1U << addr_x | 1U << time_low) >> kind & 1) != 0;
-}
-
 /// Which pixels from the base on a vector has events at.
 constexpr std::uint32_t valid_of(std::uint32_t word) {
     return word >> 12 == vect_12 ? word & 0xfff : word & 0xff;
@@ -56,7 +51,7 @@ class Evt3Reader final : public EventReader {
         const auto* at = words->data();
         const auto* const end = at + words->size();
         while (at != end && done.count < events.size()) {
-            if (is_ready()) at = take_frequent(at, end, events, done.count);
+            if (can_run()) at = take_run(at, end, events, done.count);
             if (at == end || done.count == events.size()) break;
             const std::uint32_t word = load<std::uint16_t>(at);
             if (auto cause = take(word, events, done)) {
@@ -80,41 +75,90 @@ class Evt3Reader final : public EventReader {
         return high_is_known_ && row_is_known_ && (low_is_known_ || !settings_.joined_late);
     }
 
-    /// Takes single events, rows and times up to the first word of another kind, or a bad event,
-    /// and returns where that is. Which of the three a word is cannot be foreseen: no branch.
-    const std::uint8_t* take_frequent(const std::uint8_t* at, const std::uint8_t* end,
-                                      std::span<Event> events, std::size_t& count) {
-        auto* event = events.data() + count;
-        const auto* const events_end = events.data() + events.size();
+    /// Whether take_run() may go on from here: an event would be good wherever its column is.
+    bool can_run() const {
+        return is_ready() && taken_of_vector_ == 0 && y_ < settings_.geometry.height &&
+               high_us_ + low_us_ >= last_t_us_;
+    }
+
+    /// Takes words while can_run() stays true, up to the first of a rare kind or a bad event, and
+    /// returns where that is. Whether a word is a row or an event cannot be foreseen: masks instead
+    /// of branches. Not inlined, so that the loop has all registers.
+    [[gnu::noinline]] const std::uint8_t* take_run(const std::uint8_t* at, const std::uint8_t* end,
+                                                   std::span<Event> events, std::size_t& count) {
+        auto* const first = events.data() + count;
+        auto* const events_end = events.data() + events.size();
+        auto* event = first;
         const std::uint32_t width = settings_.geometry.width;
         const std::uint32_t height = settings_.geometry.height;
         const auto high_us = high_us_;
-        auto low_us = low_us_;
+        const auto same_high = time_high << 12 | static_cast<std::uint32_t>(high_.stored());
+        auto t_us = high_us + low_us_;
         auto y = y_;
-        auto last_t_us = last_t_us_;
+        auto base_x = base_x_;
+        auto base_polarity = base_polarity_;
         for (; at != end && event != events_end; at += word_bytes) {
             const std::uint32_t word = load<std::uint16_t>(at);
             const auto kind = word >> 12;
-            if (!is_frequent(kind)) break;
-            const bool is_event = kind == addr_x;
-            const auto x = word & 0x7ff;
-            y = kind == addr_y ? x : y;
-            low_us = kind == time_low ? word & 0xfff : low_us;
-            const auto t_us = high_us + low_us;
-            if (is_event && (x >= width || y >= height || t_us < last_t_us)) break;
-            store(*event, t_us, x, y, word >> 11 & 1);
-            event += is_event;
-            last_t_us = is_event ? t_us : last_t_us;
+            const auto number = word & 0x7ff;
+            if (kind == addr_x || kind == addr_y) {
+                const std::uint32_t is_event = kind >> 1;
+                if (number >= chosen(is_event, width, height)) break;
+                y = chosen(is_event, y, number);
+                store(*event, t_us, number, y, word >> 11 & 1);
+                event += is_event;
+            } else if (kind == time_low) {
+                if (high_us + (word & 0xfff) < t_us) break;
+                t_us = high_us + (word & 0xfff);
+            } else if (kind == vect_base_x) {
+                base_x = number;
+                base_polarity = word >> 11 & 1;
+            } else if (kind == vect_12 || kind == vect_8) {
+                const auto valid = valid_of(word);
+                const auto end_x = base_x + static_cast<std::uint32_t>(std::bit_width(valid));
+                if (events_end - event < 12 || (end_x > width && valid != 0)) break;
+                event = store_vector(event, t_us, base_x, y, base_polarity, valid);
+                base_x = moved_on(base_x, kind);
+            } else if (word != same_high) {
+                break;
+            }
         }
-        low_us_ = low_us;
+        if (event != first) last_t_us_ = event[-1].t_us;
+        low_us_ = t_us - high_us;
         y_ = y;
-        last_t_us_ = last_t_us;
+        base_x_ = base_x;
+        base_polarity_ = base_polarity;
         count = static_cast<std::size_t>(event - events.data());
         return at;
     }
 
+    /// condition ? a : b, of a condition 0 or 1, by a mask.
+    static std::uint32_t chosen(std::uint32_t condition, std::uint32_t a, std::uint32_t b) {
+        return b ^ ((a ^ b) & (0U - condition));
+    }
+
+    /// Stores events at the set bits of `valid`; 12 must fit. There are seldom more than two, so
+    /// two are stored anyway and those that are none are overwritten.
+    static Event* store_vector(Event* event, std::int64_t t_us, std::uint32_t first_x,
+                               std::uint32_t y, std::uint32_t polarity, std::uint32_t valid) {
+        const auto next_x = [&] {
+            return first_x + static_cast<std::uint32_t>(std::countr_zero(valid));
+        };
+        for (int i = 0; i < 2; ++i, valid &= valid - 1) {
+            store(*event, t_us, next_x() & 0xffff, y, polarity);
+            event += valid != 0;
+        }
+        for (; valid != 0; valid &= valid - 1) store(*event++, t_us, next_x(), y, polarity);
+        return event;
+    }
+
+    static std::uint32_t moved_on(std::uint32_t base_x, std::uint32_t kind) {
+        return base_x >= no_base ? base_x : base_x + (kind == vect_12 ? 12 : 8);
+    }
+
     /// Takes any word; returns what is wrong with it.
-    std::optional<std::string> take(std::uint32_t word, std::span<Event> events, Decoded& done) {
+    [[gnu::noinline]] std::optional<std::string> take(std::uint32_t word, std::span<Event> events,
+                                                      Decoded& done) {
         switch (word >> 12) {
             case addr_y:
                 y_ = word & 0x7ff;
@@ -159,7 +203,7 @@ class Evt3Reader final : public EventReader {
                                            Decoded& done) {
         const auto valid = valid_of(word);
         if (auto cause = take_events(base_x_, base_polarity_, valid, events, done)) return cause;
-        if (taken_of_vector_ == 0 && base_x_ < no_base) base_x_ += word >> 12 == vect_12 ? 12 : 8;
+        if (taken_of_vector_ == 0) base_x_ = moved_on(base_x_, word >> 12);
         return std::nullopt;
     }
 

@@ -32,6 +32,7 @@ class Unwrapped {
     }
 
     std::int64_t value() const { return turns_ + stored_; }
+    std::int64_t stored() const { return stored_; }
 
  private:
     std::int64_t turns_ = 0;  // what the wraps so far have added
