@@ -72,26 +72,27 @@ std::unique_ptr<ByteSource> from_memory(std::string name, std::span<const std::u
 }
 
 ByteWindow::ByteWindow(std::unique_ptr<ByteSource> source, std::size_t capacity)
-    : source_(std::move(source)) {
+    : source_(std::move(source)), capacity_(capacity) {
     if (const auto bytes = source_->in_memory()) {
         ahead_ = *bytes;
         at_end_ = true;
     } else {
-        buffer_.resize(capacity);
-        ahead_ = std::span(buffer_).first(0);
+        buffer_ = std::make_unique_for_overwrite<std::uint8_t[]>(capacity);
+        ahead_ = {buffer_.get(), 0};
     }
 }
 
 Result<void> ByteWindow::fetch(std::size_t wanted) {
-    wanted = std::min(wanted, buffer_.size());
-    if (ahead_.data() != buffer_.data()) {
-        std::memmove(buffer_.data(), ahead_.data(), ahead_.size());
-        ahead_ = std::span(buffer_).first(ahead_.size());
+    wanted = std::min(wanted, capacity_);
+    const std::span<std::uint8_t> buffer(buffer_.get(), capacity_);
+    if (ahead_.data() != buffer.data()) {
+        std::memmove(buffer.data(), ahead_.data(), ahead_.size());
+        ahead_ = buffer.first(ahead_.size());
     }
     while (ahead_.size() < wanted && !at_end_) {
-        const auto n = source_->read(std::span(buffer_).subspan(ahead_.size()));
+        const auto n = source_->read(buffer.subspan(ahead_.size()));
         if (!n) return tl::unexpected(n.error());
-        ahead_ = std::span(buffer_).first(ahead_.size() + *n);
+        ahead_ = buffer.first(ahead_.size() + *n);
         at_end_ = *n == 0;
     }
     return {};

@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "services/common/result.hpp"
 
@@ -75,7 +74,8 @@ class ByteWindow {
     Result<void> fetch(std::size_t wanted);
 
     std::unique_ptr<ByteSource> source_;
-    std::vector<std::uint8_t> buffer_;
+    std::unique_ptr<std::uint8_t[]> buffer_;
+    std::size_t capacity_;
     std::span<const std::uint8_t> ahead_;  // in the buffer, or in the source's memory
     std::uint64_t offset_ = 0;
     bool at_end_ = false;
