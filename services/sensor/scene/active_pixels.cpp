@@ -56,7 +56,7 @@ void ActivePixels::clear(const ImageEdges& edges) {
 void ActivePixels::add_edge(const ImageEdges& edges, std::uint32_t e, bool activate) {
     const ImageEdge& edge = edges.edges()[e];
     const bool fixed = !fixed_done_;
-    const float radius = cut_sigmas * static_cast<float>(edges.sigma_px()) +
+    const float radius = ImageEdges::cut_sigmas * static_cast<float>(edges.sigma_px()) +
                          (fixed ? 0.0F : static_cast<float>(margin_px_));
     const float bx = edge.ax + edge.ux * edge.length;
     const float by = edge.ay + edge.uy * edge.length;
@@ -182,14 +182,12 @@ void ActivePixels::describe(const ImageEdges& edges, std::uint32_t index, std::u
     pixel.normal_share = fastest;
     float darkest = pixel.rest;
     float brightest = pixel.rest;
-    std::uint32_t near_count = 0;
     for (std::uint32_t i = 0; i < pixel.term_count; ++i) {
         const Term& term = terms_[pixel.first_term + i];
         darkest = std::min(darkest, polygons[term.polygon].reflectance);
         brightest = std::max(brightest, polygons[term.polygon].reflectance);
-        near_count += term.near_count;
     }
-    pixel.contrast = (brightest - darkest) * static_cast<float>(near_count);
+    pixel.contrast = brightest - darkest;
     pixels_.push_back(pixel);
 }
 
@@ -198,16 +196,16 @@ ActivePixels::Sight ActivePixels::sight(const ImageEdges& edges, const Pixel& pi
     const auto y = static_cast<float>(pixel.index / geometry_.width);
     float seen = 0;
     float open = 1;
-    float nearest = cut_sigmas;
+    Nearness nearness;
     for (std::uint32_t i = 0; i < pixel.term_count; ++i) {
         const Term& term = terms_[pixel.first_term + i];
         const ImagePolygon& polygon = edges.polygons()[term.polygon];
         const float cover =
-            edges.coverage(polygon, {&near_[term.first_near], term.near_count}, x, y, nearest);
+            edges.coverage(polygon, {&near_[term.first_near], term.near_count}, x, y, nearness);
         seen += open * cover * polygon.reflectance;
         open *= 1 - cover;
     }
-    return {seen + open * pixel.rest, nearest};
+    return {seen + open * pixel.rest, nearness};
 }
 
 std::vector<float> ActivePixels::brightness_of_all(const ImageEdges& edges) {

@@ -32,7 +32,7 @@ class ActivePixels {
         float rest;            ///< Reflectance of what covers it behind the terms.
         std::uint64_t layers;  ///< Bit (layer mod 64) of each moving layer near it.
         float normal_share;    ///< How far edges near it move along their normals, as a share.
-        float contrast;        ///< Bounds what it sees change when a Gaussian's tail goes by.
+        float contrast;        ///< Between the darkest and the brightest that it may see.
     };
 
     ActivePixels(Geometry geometry, double background_reflectance, double margin_px);
@@ -45,8 +45,8 @@ class ActivePixels {
     const std::vector<Pixel>& pixels() const { return pixels_; }
 
     struct Sight {
-        float brightness;      ///< 0 … 1.
-        float nearest_sigmas;  ///< No edge is nearer.
+        float brightness;  ///< 0 … 1.
+        Nearness nearness;
     };
 
     /// What an active pixel sees with the edges where they are now.
@@ -57,8 +57,12 @@ class ActivePixels {
 
     double margin_px() const { return margin_px_; }
 
-    /// Nearer than this, in sigmas, an edge counts; the jump there is 2e-4 of its contrast.
-    static constexpr float cut_sigmas = 3.5F;
+    /// No edge that an active pixel does not know is nearer than this, where nothing has moved by
+    /// more than `moved_px` since mark().
+    float unknown_sigmas(const ImageEdges& edges, double moved_px) const {
+        return ImageEdges::cut_sigmas +
+               static_cast<float>((margin_px_ - moved_px) / edges.sigma_px());
+    }
 
  private:
     static constexpr std::uint32_t none = 0xffffffffU;

@@ -86,7 +86,7 @@ void ImageEdges::note_motion(std::size_t layer, const PlanarMap& from, const Pla
 }
 
 float ImageEdges::coverage(const ImagePolygon& polygon, std::span<const std::uint32_t> near,
-                           float x, float y, float& nearest, bool may_step_aside) const {
+                           float x, float y, Nearness& nearness, bool may_step_aside) const {
     float sum = 0;
     int inside_count = 0;
     bool foot_on_edge = false;
@@ -99,7 +99,9 @@ float ImageEdges::coverage(const ImagePolygon& polygon, std::span<const std::uin
         const float along = (edge.ux * dx + edge.uy * dy) * per_sigma_;
         const float rest = edge.length * per_sigma_ - along;
         const float distance = std::abs(h);
-        nearest = std::min(nearest, std::max({distance, -along, -rest}));
+        const float away = std::max({distance, -along, -rest});
+        nearness.sigmas = std::min(nearness.sigmas, away);
+        nearness.count += away < cut_sigmas ? 1 : 0;
         inside_count += h > 0 ? 1 : 0;
         if (distance < on_edge && along > -on_edge && rest > -on_edge) underfoot = &edge;
         if (distance >= GaussianCoverage::reach) {
@@ -120,7 +122,7 @@ float ImageEdges::coverage(const ImagePolygon& polygon, std::span<const std::uin
         // Exactly on an edge among others rounding would decide between in and out: step aside.
         const float aside_x = aside_px * (0.4F * underfoot->ux - underfoot->uy);
         const float aside_y = aside_px * (0.4F * underfoot->uy + underfoot->ux);
-        return coverage(polygon, near, x + aside_x, y + aside_y, nearest, false);
+        return coverage(polygon, near, x + aside_x, y + aside_y, nearness, false);
     }
     // Within reach there is nothing but the near edges, so that one or two neighbours alone tell
     // inside from outside; with more, count crossings.

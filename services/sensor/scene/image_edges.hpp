@@ -31,6 +31,12 @@ struct ImagePolygon {
     float y_high = 0;
 };
 
+/// The edges near a pixel, from its sight of them.
+struct Nearness {
+    float sigmas = 1e9F;      ///< To the nearest edge of those looked at.
+    std::uint32_t count = 0;  ///< How many are within ImageEdges::cut_sigmas.
+};
+
 /// Every polygon of a scene in the image, front to back, where its layer was placed last; and how
 /// much of a pixel they cover: exactly, for a pixel whose sensitivity is Gaussian.
 class ImageEdges {
@@ -53,12 +59,14 @@ class ImageEdges {
     std::uint32_t polygon_of(std::uint32_t edge) const { return polygon_of_[edge]; }
     double sigma_px() const { return sigma_px_; }
 
+    /// Nearer than this an edge counts; the jump there is 2e-4 of its contrast.
+    static constexpr float cut_sigmas = 3.5F;
+
     /// Share of the pixel at (x, y) that `polygon` covers; `near` names every edge of it within
-    /// GaussianCoverage::reach · sigma_px, ascending, at least one. Lowers `nearest` to the
-    /// distance of the nearest one, in sigmas, or less.
+    /// GaussianCoverage::reach · sigma_px, ascending, at least one. Adds to `nearness`.
     float coverage(const ImagePolygon& polygon, std::span<const std::uint32_t> near, float x,
-                   float y, float& nearest) const {
-        return coverage(polygon, near, x, y, nearest, true);
+                   float y, Nearness& nearness) const {
+        return coverage(polygon, near, x, y, nearness, true);
     }
 
     /// Whether the point is inside `polygon`.
@@ -66,7 +74,7 @@ class ImageEdges {
 
  private:
     float coverage(const ImagePolygon& polygon, std::span<const std::uint32_t> near, float x,
-                   float y, float& nearest, bool may_step_aside) const;
+                   float y, Nearness& nearness, bool may_step_aside) const;
 
     double sigma_px_;
     float per_sigma_;

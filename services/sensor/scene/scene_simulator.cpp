@@ -14,7 +14,7 @@ namespace {
 constexpr double pixel_variance_px2 = 1.0 / 12;
 
 /// How far edges may move before the pixels near them are found anew.
-constexpr double mark_margin_px = 0.8;
+constexpr double mark_margin_px = 2;
 
 /// A resting layer that has moved by this much is a moving one.
 constexpr double rest_px = 0.02;
@@ -24,8 +24,10 @@ constexpr double rest_px = 0.02;
 constexpr std::int64_t longest_step_us = 1000;
 constexpr std::int64_t longest_unseen_us = 5000;
 
-/// The pixels near moving edges are found anew after this many steps at the latest.
-constexpr std::int64_t longest_mark_steps = 16;
+/// The pixels near moving edges are found anew after this many steps, or this time, at the latest:
+/// directions turn, and what was blind sees again.
+constexpr std::int64_t longest_mark_steps = 40;
+constexpr std::int64_t longest_mark_us = 16'000;
 
 /// Where nothing is seen.
 constexpr double away_px = 1e7;
@@ -148,14 +150,16 @@ std::int64_t SceneSimulator::place_next() {
     }
 }
 
-bool SceneSimulator::mark_needed() const {
-    if (now_us_ >= mark_until_us_) return true;
-    return std::any_of(layers_.begin(), layers_.end(), [&](const LayerState& layer) {
-        if (layer.motion == LayerMotion::fixed) return false;
-        const double allowed_px =
-            layer.motion == LayerMotion::resting ? rest_px : active_.margin_px();
-        return displacement_px(layer, layer.marked, layer.now) > allowed_px;
-    });
+bool SceneSimulator::mark_needed() {
+    bool needed = now_us_ >= mark_until_us_;
+    moved_px_ = 0;
+    for (const LayerState& layer : layers_) {
+        if (layer.motion == LayerMotion::fixed) continue;
+        const double moved_px = displacement_px(layer, layer.marked, layer.now);
+        moved_px_ = std::max(moved_px_, moved_px);
+        needed |= moved_px > (layer.motion == LayerMotion::resting ? rest_px : active_.margin_px());
+    }
+    return needed;
 }
 
 void SceneSimulator::mark() {
@@ -171,31 +175,50 @@ void SceneSimulator::mark() {
         }
         motions.push_back(layer.motion);
     }
-    mark_until_us_ = now_us_ + longest_mark_steps * step_us_;
+    mark_until_us_ = now_us_ + std::min(longest_mark_steps * step_us_, longest_mark_us);
     active_.mark(edges_, motions, pixels_->blind_until_us(), mark_until_us_);
+    moved_px_ = 0;
+    plan_looks();
 }
 
-/// How many looks from now the next one may be, at least 1. With the edges that move by `way` a
-/// look no nearer than d, what the pixel sees changes in n looks by at most contrast · (tail(d - n
+void SceneSimulator::plan_looks() {
+    for (auto& look : plan_) look.clear();
+    const auto& pixels = active_.pixels();
+    for (std::uint32_t i = 0; i < pixels.size(); ++i) {
+        plan_look(i, std::max(next_look_[pixels[i].index], look_count_ + 1));
+    }
+}
+
+void SceneSimulator::plan_look(std::uint32_t active, std::uint64_t look) {
+    plan_[look % plan_.size()].push_back(active);
+}
+
+/// How many looks from now the next one may be, at least 1. With n edges that move by `way` a look
+/// no nearer than d, what the pixel sees changes in k looks by at most n · contrast · (tail(d - k
 /// way) - tail(d)): no event comes before that has used up the room to the next threshold. Edges
-/// beyond the cut count with full contrast.
+/// beyond the cut count as one of full contrast.
 std::uint32_t SceneSimulator::looks_without_event(const ActivePixels::Pixel& pixel,
-                                                  const ActivePixels::Sight& sight) const {
-    constexpr float most = 8;
+                                                  const ActivePixels::Sight& sight,
+                                                  float unknown_sigmas) const {
     const auto way = static_cast<float>(drawn_.sensor.max_step_px() / edges_.sigma_px());
-    const float stride = std::floor(1 / std::max(pixel.normal_share, 1.0F / greatest_stride));
+    const auto stride =
+        static_cast<std::uint32_t>(1 / std::max(pixel.normal_share, 1.0F / greatest_stride));
     const float room = pixels_->room(pixel.index);
-    if (room <= 0 || std::popcount(pixel.layers) > 1) return static_cast<std::uint32_t>(stride);
+    if (room <= 0) return stride;
     const auto& gaussian = GaussianCoverage::tables();
+    constexpr auto most = static_cast<float>(greatest_skip);
     const auto looks = [&](float contrast, float distance, float way_a_look) {
         const float share = room / contrast + gaussian.tail(distance);
         return share >= 1 ? most : (distance - gaussian.distance(share)) / way_a_look;
     };
-    const float of_near = looks(std::max(pixel.contrast, 1e-3F), sight.nearest_sigmas,
-                                way * std::max(pixel.normal_share, 0.01F));
-    const float of_far = looks(1, ActivePixels::cut_sigmas, way);
-    const float safe = std::floor(std::min({of_near, of_far, most}));
-    return static_cast<std::uint32_t>(std::max(safe, stride));
+    const auto [nearest, count] = sight.nearness;
+    float safe = std::min(
+        most, looks(1, std::min(unknown_sigmas, std::max(nearest, ImageEdges::cut_sigmas)), way));
+    if (count > 0) {
+        const float contrast = std::max(pixel.contrast, 1e-3F) * static_cast<float>(count);
+        safe = std::min(safe, looks(contrast, nearest, way * std::max(pixel.normal_share, 0.01F)));
+    }
+    return std::max(static_cast<std::uint32_t>(std::max(safe, 0.0F)), stride);
 }
 
 /// Lets the pixels near layers that have moved far enough look at them.
@@ -224,16 +247,30 @@ void SceneSimulator::look(bool marked) {
     }
     if (due == 0) return;
     ++look_count_;
-    // A pixel that stays blind over its next looks as well: what it sees now is forgotten.
-    const std::int64_t in_vain_us = now_us_ + 2 * greatest_stride * longest_gap_us;
-    for (const auto& pixel : active_.pixels()) {
-        if ((pixel.layers & due) == 0 || next_look_[pixel.index] > look_count_) continue;
-        if (pixels_->blind_beyond(pixel.index, in_vain_us)) continue;
+    // What a pixel sees that stays blind for longer than this is forgotten before it matters.
+    const std::int64_t soon_us = 2 * longest_gap_us;
+    const float unknown_sigmas = active_.unknown_sigmas(edges_, moved_px_);
+    looking_.clear();
+    looking_.swap(plan_[look_count_ % plan_.size()]);
+    for (const auto active : looking_) {
+        const auto& pixel = active_.pixels()[active];
+        if ((pixel.layers & due) == 0) {
+            plan_look(active, look_count_ + 1);
+            continue;
+        }
+        if (pixels_->blind_beyond(pixel.index, now_us_ + soon_us)) {
+            // Looks may come more rarely meanwhile: half of the way, then again.
+            const auto left_us = pixels_->blind_until_us()[pixel.index] - now_us_;
+            const auto skip = std::min<std::int64_t>(left_us / soon_us, greatest_skip);
+            plan_look(active, look_count_ + static_cast<std::uint64_t>(skip));
+            continue;
+        }
         const auto sight = active_.sight(edges_, pixel);
         const LayerState& layer =
             layers_[static_cast<std::size_t>(std::countr_zero(pixel.layers & due))];
         pixels_->look(pixel.index, layer.looks_us.back(), now_us_, sight.brightness, pending_);
-        next_look_[pixel.index] = look_count_ + looks_without_event(pixel, sight);
+        next_look_[pixel.index] = look_count_ + looks_without_event(pixel, sight, unknown_sigmas);
+        plan_look(active, next_look_[pixel.index]);
     }
     for (LayerState& layer : layers_) {
         if (!std::exchange(layer.looked_now, false)) continue;

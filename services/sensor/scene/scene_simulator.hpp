@@ -55,6 +55,9 @@ class SceneSimulator {
     /// Pixels may be looked at every so many looks, where edges move along themselves.
     static constexpr std::uint32_t greatest_stride = 4;
 
+    /// No pixel that is near something goes for more looks without one of its own.
+    static constexpr std::uint32_t greatest_skip = 63;
+
     struct LayerState {
         LayerMotion motion = LayerMotion::fixed;
         std::vector<Point> corners;  // of its bounding box, layer frame
@@ -76,11 +79,13 @@ class SceneSimulator {
     void come_and_go();
     std::int64_t settled_us() const;
     std::int64_t place_next();
-    bool mark_needed() const;
+    bool mark_needed();
     void mark();
     void look(bool marked);
+    void plan_looks();
+    void plan_look(std::uint32_t active, std::uint64_t look);
     std::uint32_t looks_without_event(const ActivePixels::Pixel& pixel,
-                                      const ActivePixels::Sight& sight) const;
+                                      const ActivePixels::Sight& sight, float unknown_sigmas) const;
 
     DrawnScene drawn_;
     std::optional<std::int64_t> duration_us_;
@@ -97,8 +102,12 @@ class SceneSimulator {
     std::int64_t mark_until_us_ = 0;  // when the active pixels are found anew at the latest
     std::int64_t time_us_ = 0;
     std::uint64_t look_count_ = 0;
+    double moved_px_ = 0;                   // the furthest of any layer since mark()
     std::vector<std::uint64_t> next_look_;  // by pixel: the look at which it looks again
-    std::vector<Event> pending_;            // not yet handed out, not in order
+    // The active pixels, by number, that look next at each of the looks to come, modulo.
+    std::array<std::vector<std::uint32_t>, greatest_skip + 1> plan_;
+    std::vector<std::uint32_t> looking_;
+    std::vector<Event> pending_;  // not yet handed out, not in order
 };
 
 }  // namespace pursuit::sensor
