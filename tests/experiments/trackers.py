@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is compared: this tracker with its constants, frame-based methods, and the true pose."""
+
+import os
+import re
+import shutil
+from dataclasses import dataclass
+
+from programs import CTL, FRAME_BASED, digest_of_program, run
+
+
+@dataclass(frozen=True)
+class Pursuit:
+    """pursuitctl track. `parameters`: (name, value) over the preset's."""
+    label: str
+    preset: str = "default"
+    estimator: str = ""
+    strategy: str = ""
+    transform: str = ""  # instead of the one that the scene states
+    parameters: tuple = ()
+
+    def key(self):
+        return f"pursuit {self.preset} {self.estimator} {self.strategy} {self.transform} " \
+               f"{self.parameters} {digest_of_program(CTL)}"
+
+    def track(self, files, folder):
+        """Writes poses.csv and returns its path and the seconds that it took."""
+        config = os.path.join(folder, "tracker.textproto")
+        with open(config, "w") as file:
+            file.write(f'preset: "{self.preset}"\n')
+            for name, value in self.parameters:
+                file.write(f'parameter {{ name: "{name}" value: {value} }}\n')
+        poses = os.path.join(folder, "poses.csv")
+        arguments = [CTL, "track", "--config", config, "--events", files.events, "--poses", poses,
+                     "--transform", self.transform or files.transform]
+        if self.estimator:
+            arguments += ["--estimator", self.estimator]
+        if self.strategy:
+            arguments += ["--strategy", self.strategy]
+        for start in files.starts():
+            arguments += ["--model", start]
+        _, said = run(arguments)
+        return poses, float(re.search(r"events in ([0-9.]+) s", said).group(1))
+
+
+@dataclass(frozen=True)
+class FrameBased:
+    """tests/experiments/baselines: events accumulated into frames, registered to the model."""
+    label: str
+    method: str  # procrustes, icp
+    window_us: int
+    options: tuple = ()
+
+    def key(self):
+        return f"frame_based {self.method} {self.window_us} {self.options} " \
+               f"{digest_of_program(FRAME_BASED)}"
+
+    def track(self, files, folder):
+        poses = os.path.join(folder, "poses.csv")
+        arguments = [FRAME_BASED, "--events", files.events, "--poses", poses, "--method",
+                     self.method, "--window-us", self.window_us, "--transform", files.transform]
+        arguments += self.options
+        for start in files.starts():
+            arguments += ["--model", start]
+        _, said = run(arguments)
+        return poses, float(re.search(r"in ([0-9.]+) s", said).group(1))
+
+
+@dataclass(frozen=True)
+class Truth:
+    """The true pose itself: what the measures say of it."""
+    label: str = "true pose"
+
+    def key(self):
+        return "truth"
+
+    def track(self, files, folder):
+        poses = os.path.join(folder, "poses.csv")
+        shutil.copyfile(files.truth, poses)
+        return poses, 0.0
+
+
+OURS = Pursuit("default")
+PAPER = Pursuit("paper's constants", preset="paper")
+TRUTH = Truth()
