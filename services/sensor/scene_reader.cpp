@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/sensor/scene_reader.hpp"
 
-#include <algorithm>
-
 namespace pursuit::sensor {
 namespace {
 
@@ -11,20 +9,38 @@ constexpr std::int64_t longest_silence_us = 3'600'000'000;
 
 }  // namespace
 
-EventReader::Decoded SceneReader::decode(std::span<Event> events, std::span<Event> /*exposures*/) {
-    if (taken_ == slice_.size()) {
-        slice_.clear();
-        taken_ = 0;
-        const auto give_up_us = simulator_.time_us() + longest_silence_us;
-        while (slice_.empty() && simulator_.time_us() < give_up_us) {
-            if (!simulator_.next(slice_us, slice_)) break;
+void SceneReader::Slice::clear() {
+    events.clear();
+    taken = 0;
+}
+
+EventReader::Decoded SceneReader::decode(std::span<Event> events, std::span<Event> exposures) {
+    const auto give_up_us = simulator_.time_us() + longest_silence_us;
+    while (events_.empty() && exposures_.empty() && simulator_.time_us() < give_up_us) {
+        events_.clear();
+        exposures_.clear();
+        if (!simulator_.next(slice_us, events_.events,
+                             exposures.empty() ? nullptr : &exposures_.events)) {
+            break;
         }
     }
-    const auto count = std::min(events.size(), slice_.size() - taken_);
-    std::copy_n(slice_.begin() + static_cast<std::ptrdiff_t>(taken_), count, events.begin());
-    taken_ += count;
+    // In order of time over both, until one of the spans is full.
     Decoded done;
-    done.count = count;
+    if (exposures.empty()) exposures_.clear();
+    while (!events_.empty() || !exposures_.empty()) {
+        const bool event_next =
+            exposures_.empty() ||
+            (!events_.empty() && events_.front().t_us <= exposures_.front().t_us);
+        if (event_next) {
+            if (done.count == events.size()) break;
+            events[done.count++] = events_.front();
+            ++events_.taken;
+        } else {
+            if (done.exposures == exposures.size()) break;
+            exposures[done.exposures++] = exposures_.front();
+            ++exposures_.taken;
+        }
+    }
     return done;
 }
 

@@ -20,13 +20,25 @@ class SceneReader final : public EventReader {
 
     Geometry geometry() const override { return simulator_.geometry(); }
 
+    bool has_exposures() const override { return simulator_.has_exposures(); }
+
  protected:
     Decoded decode(std::span<Event> events, std::span<Event> exposures) override;
 
  private:
+    /// What is left of a slice of time.
+    struct Slice {
+        std::vector<Event> events;
+        std::size_t taken = 0;
+
+        bool empty() const { return taken == events.size(); }
+        const Event& front() const { return events[taken]; }
+        void clear();
+    };
+
     SceneSimulator simulator_;
-    std::vector<Event> slice_;
-    std::size_t taken_ = 0;  // of the slice
+    Slice events_;
+    Slice exposures_;
 };
 
 /// The scene of a file, or of a built-in name.

@@ -30,14 +30,20 @@ Result<sensor::SimulationSummary> write(const Options& options, const sensor::Sc
     const Geometry geometry{static_cast<std::uint16_t>(array.width()),
                             static_cast<std::uint16_t>(array.height())};
     if (options.events.empty()) {
-        const auto nothing = [](std::span<const Event>) { return Result<void>(); };
+        const auto nothing = [](std::span<const Event>, std::span<const Event>) {
+            return Result<void>();
+        };
         return sensor::write_simulation(scene, options.seed, nothing, options.files);
     }
-    auto writer = sensor::create_events(options.events, geometry);
+    auto writer = sensor::create_events(options.events, geometry, array.exposure_us() > 0);
     if (!writer) return tl::unexpected(writer.error());
     const auto summary = sensor::write_simulation(
         scene, options.seed,
-        [&](std::span<const Event> events) { return (*writer)->write(events); }, options.files);
+        [&](std::span<const Event> events, std::span<const Event> exposures) {
+            return (*writer)->holds_exposures() ? (*writer)->write(events, exposures)
+                                                : (*writer)->write(events);
+        },
+        options.files);
     if (auto ok = (*writer)->close(); summary && !ok) return tl::unexpected(ok.error());
     return summary;
 }

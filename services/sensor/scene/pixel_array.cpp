@@ -28,6 +28,7 @@ PixelArray::PixelArray(Geometry geometry, const disk::SceneSensor& sensor, std::
       noise_(seed, noise_stream),
       states_(brightness.size()),
       blind_until_us_(brightness.size(), never) {
+    if (sensor.exposure_us() > 0) exposures_.emplace(geometry, sensor.exposure_us());
     Random thresholds(seed, threshold_stream);
     const double mean = sensor.threshold();
     const auto threshold = [&] {
@@ -60,7 +61,8 @@ std::int64_t PixelArray::greatest_lead_us() const {
     return static_cast<std::int64_t>(std::ceil(jitter_cut * jitter_us_ - latency_us_)) + 1;
 }
 
-void PixelArray::fire(std::uint32_t index, std::int64_t t_us, bool on, std::vector<Event>& events) {
+void PixelArray::fire(std::uint32_t index, std::int64_t t_us, bool on, float brightness,
+                      std::vector<Event>& events) {
     const double jitter =
         jitter_us_ > 0 ? jitter_us_ * std::clamp(jitter_.normal(), -jitter_cut, jitter_cut) : 0;
     const std::int64_t stamp = t_us + std::llround(latency_us_ + jitter);
@@ -69,6 +71,7 @@ void PixelArray::fire(std::uint32_t index, std::int64_t t_us, bool on, std::vect
                       static_cast<std::uint16_t>(index / geometry_.width),
                       static_cast<std::uint8_t>(on ? 1 : 0)});
     blind_until_us_[index] = t_us + refractory_us_;
+    if (exposures_) exposures_->start(index, t_us + std::llround(latency_us_), brightness);
 }
 
 void PixelArray::look(std::uint32_t index, std::int64_t since_us, std::int64_t t_us,
@@ -102,7 +105,7 @@ void PixelArray::look(std::uint32_t index, std::int64_t since_us, std::int64_t t
         const auto crossing_us =
             from_us + static_cast<std::int64_t>(std::lround(static_cast<double>(u) *
                                                             static_cast<double>(t_us - from_us)));
-        fire(index, crossing_us, on, events);
+        fire(index, crossing_us, on, level, events);
         before = level;
         from_us = crossing_us;
     }
@@ -119,7 +122,7 @@ void PixelArray::run(NoiseSource& source, std::int64_t t_us, std::vector<Event>&
                 : source.pixels[noise_.index(static_cast<std::uint32_t>(source.pixels.size()))];
         const bool on = noise_.chance(0.5);
         if (blind_beyond(index, now_us)) continue;
-        fire(index, now_us, on, events);
+        fire(index, now_us, on, states_[index].seen, events);
     }
 }
 

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "scene.pb.h"
 #include "services/common/event.hpp"
+#include "services/sensor/scene/exposures.hpp"
 #include "services/sensor/scene/random.hpp"
 
 namespace pursuit::sensor {
@@ -53,6 +55,14 @@ class PixelArray {
     /// set its reference like any other.
     void noise(std::int64_t t_us, std::vector<Event>& events);
 
+    bool has_exposures() const { return exposures_.has_value(); }
+
+    /// Appends the exposure measurements' crossings before `end_us`, of which all events must have
+    /// been seen; Exposures::take().
+    void take_exposures(std::int64_t end_us, std::vector<Event>& crossings) {
+        if (exposures_) exposures_->take(end_us, crossings);
+    }
+
     /// No event comes earlier than its crossing by more than this.
     std::int64_t greatest_lead_us() const;
 
@@ -76,7 +86,8 @@ class PixelArray {
     };
 
     static void set_reference(State& state, float brightness);
-    void fire(std::uint32_t index, std::int64_t t_us, bool on, std::vector<Event>& events);
+    void fire(std::uint32_t index, std::int64_t t_us, bool on, float brightness,
+              std::vector<Event>& events);
     void run(NoiseSource& source, std::int64_t t_us, std::vector<Event>& events);
 
     Geometry geometry_;
@@ -89,6 +100,7 @@ class PixelArray {
     std::vector<std::int64_t> blind_until_us_;  // never: its reference is set
     NoiseSource background_;
     NoiseSource hot_;
+    std::optional<Exposures> exposures_;
 };
 
 }  // namespace pursuit::sensor

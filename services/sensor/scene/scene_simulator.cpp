@@ -323,7 +323,8 @@ void SceneSimulator::step() {
     look(marking);
 }
 
-bool SceneSimulator::next(std::int64_t slice_us, std::vector<Event>& events) {
+bool SceneSimulator::next(std::int64_t slice_us, std::vector<Event>& events,
+                          std::vector<Event>* exposures) {
     if (duration_us_ && time_us_ >= *duration_us_) return false;
     std::int64_t end_us = time_us_ + std::max<std::int64_t>(slice_us, 1);
     if (duration_us_) end_us = std::min(end_us, *duration_us_);
@@ -340,6 +341,10 @@ bool SceneSimulator::next(std::int64_t slice_us, std::vector<Event>& events) {
     std::sort(pending_.begin(), later, in_order);
     events.insert(events.end(), pending_.begin(), later);
     pending_.erase(pending_.begin(), later);
+    if (pixels_->has_exposures()) {
+        unwanted_.clear();
+        pixels_->take_exposures(end_us, exposures != nullptr ? *exposures : unwanted_);
+    }
     time_us_ = end_us;
     return true;
 }

@@ -35,9 +35,14 @@ class SceneSimulator {
     /// None: it never ends.
     std::optional<std::int64_t> duration_us() const { return duration_us_; }
 
-    /// Appends the events of the next `slice_us` (at least 1) in order: by time, then row, column.
-    /// False: the scene had already ended, nothing was appended.
-    bool next(std::int64_t slice_us, std::vector<Event>& events);
+    /// Whether the scene's sensor measures exposures.
+    bool has_exposures() const { return pixels_->has_exposures(); }
+
+    /// Appends the events of the next `slice_us` (at least 1) in order: by time, then row, column;
+    /// and the exposure measurements, where they are wanted. False: the scene had already ended,
+    /// nothing was appended.
+    bool next(std::int64_t slice_us, std::vector<Event>& events,
+              std::vector<Event>* exposures = nullptr);
 
     /// Every event before this time has been handed out.
     std::int64_t time_us() const { return time_us_; }
@@ -108,6 +113,7 @@ class SceneSimulator {
     std::array<std::vector<std::uint32_t>, greatest_skip + 1> plan_;
     std::vector<std::uint32_t> looking_;
     std::vector<Event> pending_;  // not yet handed out, not in order
+    std::vector<Event> unwanted_;
 };
 
 }  // namespace pursuit::sensor

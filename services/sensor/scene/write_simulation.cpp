@@ -130,6 +130,7 @@ Result<SimulationSummary> write_simulation(const Scene& scene, std::uint64_t see
         return truth.good();
     };
     std::vector<Event> slice;
+    std::vector<Event> exposures;
     std::int64_t truth_us = 0;
     for (;;) {
         for (; truth_us <= std::min(simulator.time_us(), summary.duration_us);
@@ -139,8 +140,9 @@ Result<SimulationSummary> write_simulation(const Scene& scene, std::uint64_t see
         if (!write_truth()) return fail(files.truth_path + ": cannot be written");
         const std::int64_t left_us = summary.duration_us - simulator.time_us();
         slice.clear();
-        if (left_us <= 0 || !simulator.next(std::min(slice_us, left_us), slice)) break;
-        if (auto ok = events(slice); !ok) return tl::unexpected(ok.error());
+        exposures.clear();
+        if (left_us <= 0 || !simulator.next(std::min(slice_us, left_us), slice, &exposures)) break;
+        if (auto ok = events(slice, exposures); !ok) return tl::unexpected(ok.error());
         summary.events += slice.size();
     }
     truth.close();

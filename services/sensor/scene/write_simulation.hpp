@@ -13,8 +13,9 @@
 
 namespace pursuit::sensor {
 
-/// Takes consecutive events, in order.
-using EventSink = std::function<Result<void>(std::span<const Event>)>;
+/// Takes consecutive events, in order; and exposure measurements, where the scene makes them.
+using EventSink =
+    std::function<Result<void>(std::span<const Event> events, std::span<const Event> exposures)>;
 
 struct SimulationFiles {
     /// Truth every 1 ms: t_us,object_id,model,x_px,y_px,a00,a01,a10,a11,theta_rad,scale_x,scale_y,

@@ -53,7 +53,7 @@ const std::string moving_star =
 
 TEST_F(WriteSimulation, writes_truth_every_millisecond_and_all_events_in_order) {
     std::vector<Event> events;
-    const auto take = [&](std::span<const Event> slice) -> Result<void> {
+    const auto take = [&](std::span<const Event> slice, std::span<const Event>) -> Result<void> {
         events.insert(events.end(), slice.begin(), slice.end());
         return {};
     };
@@ -85,7 +85,9 @@ TEST_F(WriteSimulation, writes_truth_every_millisecond_and_all_events_in_order) 
 TEST_F(WriteSimulation, refuses_an_endless_scene_without_a_duration) {
     SimulationFiles files;
     files.truth_path = path("truth.csv");
-    const auto none = [](std::span<const Event>) -> Result<void> { return {}; };
+    const auto none = [](std::span<const Event>, std::span<const Event>) -> Result<void> {
+        return {};
+    };
     const auto summary = write_simulation(scene_of("name: \"endless\""), 1, none, files);
     ASSERT_FALSE(summary);
     EXPECT_THAT(summary.error().message, HasSubstr("endless"));
@@ -96,12 +98,16 @@ TEST_F(WriteSimulation, refuses_an_endless_scene_without_a_duration) {
 TEST_F(WriteSimulation, reports_a_folder_it_cannot_write_to_and_an_error_of_the_sink) {
     SimulationFiles files;
     files.truth_path = path("no/such/folder/truth.csv");
-    const auto none = [](std::span<const Event>) -> Result<void> { return {}; };
+    const auto none = [](std::span<const Event>, std::span<const Event>) -> Result<void> {
+        return {};
+    };
     auto summary = write_simulation(scene_of(moving_star), 1, none, files);
     ASSERT_FALSE(summary);
     EXPECT_THAT(summary.error().message, HasSubstr("truth.csv"));
     files.truth_path = path("truth.csv");
-    const auto full = [](std::span<const Event>) -> Result<void> { return fail("disk full"); };
+    const auto full = [](std::span<const Event>, std::span<const Event>) -> Result<void> {
+        return fail("disk full");
+    };
     summary = write_simulation(scene_of(moving_star), 1, full, files);
     ASSERT_FALSE(summary);
     EXPECT_EQ(summary.error().message, "disk full");
