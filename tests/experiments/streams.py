@@ -108,6 +108,10 @@ class Simulated:
         for setting in self.settings:
             arguments += ["--set", setting]
         run(arguments)
+        if any(setting.startswith("sensor.exposure_us=") for setting in self.settings):
+            # The same again in a format that holds exposure measurements.
+            arguments[arguments.index(events)] = os.path.join(unfinished, "events.es")
+            run(arguments)
         for begin_s, end_s in self.gaps:
             cut(events, begin_s, end_s)
         os.rename(unfinished, folder)

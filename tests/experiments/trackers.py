@@ -50,15 +50,19 @@ class FrameBased:
     method: str  # procrustes, icp
     window_us: int
     options: tuple = ()
+    grey: bool = False  # frames of grey levels, from exposure measurements
 
     def key(self):
-        return f"frame_based {self.method} {self.window_us} {self.options} " \
+        return f"frame_based {self.method} {self.window_us} {self.options} {self.grey} " \
                f"{digest_of_program(FRAME_BASED)}"
 
     def track(self, files, folder):
         poses = os.path.join(folder, "poses.csv")
-        arguments = [FRAME_BASED, "--events", files.events, "--poses", poses, "--method",
+        events = files.events.replace(".dat", ".es") if self.grey else files.events
+        arguments = [FRAME_BASED, "--events", events, "--poses", poses, "--method",
                      self.method, "--window-us", self.window_us, "--transform", files.transform]
+        if self.grey:
+            arguments += ["--grey-change", 0.15]
         arguments += self.options
         for start in files.starts():
             arguments += ["--model", start]

@@ -3,6 +3,7 @@
 // to the model from where the one before left it.
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -22,6 +23,7 @@ struct Options {
     std::string method = "icp";
     std::string transform = "isometry";
     std::int64_t window_us = 200;
+    double grey_change = 0;
     RegistrationSettings registration;
 };
 
@@ -58,6 +60,52 @@ class Frame {
     Points points_;
 };
 
+/// The pixels whose grey level differs from the frame before: what a frame camera of this rate
+/// would see change. Grey levels come from exposure measurements; a pixel's first one is no change.
+class GreyFrame {
+ public:
+    /// `change`: least difference of ln(grey).
+    GreyFrame(Geometry geometry, double change)
+        : width_(geometry.width),
+          change_(change),
+          begun_us_(std::size_t{geometry.width} * geometry.height, -1),
+          grey_(begun_us_.size(), 0),
+          before_(begun_us_.size(), 0) {}
+
+    void add(const Event& crossing) {
+        const auto index = std::size_t{crossing.y} * width_ + crossing.x;
+        if (crossing.polarity == 0) {
+            begun_us_[index] = crossing.t_us;
+        } else if (begun_us_[index] >= 0 && crossing.t_us > begun_us_[index]) {
+            grey_[index] = -std::log(static_cast<double>(crossing.t_us - begun_us_[index]));
+            begun_us_[index] = -1;
+            if (before_[index] == 0) before_[index] = grey_[index];
+            measured_.push_back(index);
+        }
+    }
+
+    /// Ends the frame.
+    Points take() {
+        Points points;
+        for (const auto index : measured_) {
+            if (std::abs(grey_[index] - before_[index]) > change_) {
+                points.emplace_back(index % width_, index / width_);
+            }
+            before_[index] = grey_[index];
+        }
+        measured_.clear();
+        return points;
+    }
+
+ private:
+    std::size_t width_;
+    double change_;
+    std::vector<std::int64_t> begun_us_;
+    std::vector<double> grey_;    // ln; 0: not yet measured
+    std::vector<double> before_;  // at the end of the frame before
+    std::vector<std::size_t> measured_;
+};
+
 void write_row(std::string& csv, std::int64_t t_us, const Object& object) {
     csv += std::to_string(t_us) + "," + object.name;
     for (const double value : {object.pose.t_px.x(), object.pose.t_px.y(), object.pose.a(0, 0),
@@ -83,37 +131,80 @@ Result<std::vector<Object>> read_objects(const Options& options) {
     return objects;
 }
 
+/// Frames, from the events and exposure measurements of a recording.
+class Tracking {
+ public:
+    Tracking(const Options& options, std::vector<Object>& objects, Geometry geometry)
+        : options_(options),
+          objects_(objects),
+          frame_(geometry),
+          grey_(geometry, options.grey_change),
+          end_us_(options.window_us) {
+        for (const auto& object : objects_) write_row(csv, 0, object);
+    }
+
+    void add_event(const Event& event) {
+        end_frames(event.t_us);
+        frame_.add(event);
+    }
+
+    void add_exposure(const Event& crossing) {
+        end_frames(crossing.t_us);
+        grey_.add(crossing);
+    }
+
+    std::uint64_t frames() const { return frames_; }
+
+    std::string csv = "t_us,model,x_px,y_px,a00,a01,a10,a11\n";  ///< Rows not yet written.
+
+ private:
+    void end_frames(std::int64_t t_us) {
+        for (; t_us >= end_us_; end_us_ += options_.window_us) {
+            const Points points = options_.grey_change > 0 ? grey_.take() : frame_.points();
+            for (auto& object : objects_) {
+                object.pose = registered(object.model, points, object.pose, options_.registration);
+                write_row(csv, end_us_, object);
+            }
+            frame_.clear();
+            ++frames_;
+        }
+    }
+
+    const Options& options_;
+    std::vector<Object>& objects_;
+    Frame frame_;
+    GreyFrame grey_;
+    std::int64_t end_us_;
+    std::uint64_t frames_ = 0;
+};
+
 Result<std::uint64_t> track(const Options& options, std::vector<Object>& objects,
                             std::ofstream& out) {
     auto recording = sensor::open_events(options.events);
     if (!recording) return tl::unexpected(recording.error());
-    Frame frame((*recording)->geometry());
-    std::string csv = "t_us,model,x_px,y_px,a00,a01,a10,a11\n";
-    for (const auto& object : objects) write_row(csv, 0, object);
-    std::uint64_t frames = 0;
-    std::int64_t end_us = options.window_us;
-    std::vector<Event> block(4096);
-    for (;;) {
-        const auto count = (*recording)->read(block);
-        if (!count) return tl::unexpected(count.error());
-        if (*count == 0) break;
-        for (std::size_t i = 0; i < *count; ++i) {
-            while (block[i].t_us >= end_us) {
-                for (auto& object : objects) {
-                    object.pose =
-                        registered(object.model, frame.points(), object.pose, options.registration);
-                    write_row(csv, end_us, object);
-                }
-                frame.clear();
-                ++frames;
-                end_us += options.window_us;
-            }
-            frame.add(block[i]);
-        }
-        out << csv;
-        csv.clear();
+    if (options.grey_change > 0 && !(*recording)->has_exposures()) {
+        return fail(options.events + ": holds no exposure measurements");
     }
-    return frames;
+    Tracking tracking(options, objects, (*recording)->geometry());
+    std::vector<Event> events(4096);
+    std::vector<Event> exposures(4096);
+    for (;;) {
+        const auto batch = (*recording)->read(events, exposures);
+        if (!batch) return tl::unexpected(batch.error());
+        if (batch->at_end) return tracking.frames();
+        std::size_t e = 0;
+        std::size_t x = 0;
+        while (e < batch->events || x < batch->exposures) {
+            if (x == batch->exposures ||
+                (e < batch->events && events[e].t_us <= exposures[x].t_us)) {
+                tracking.add_event(events[e++]);
+            } else {
+                tracking.add_exposure(exposures[x++]);
+            }
+        }
+        out << tracking.csv;
+        tracking.csv.clear();
+    }
 }
 
 int run(Options& options) {
@@ -154,6 +245,10 @@ int main(int argc, char** argv) {
     app.add_option("--transform", options.transform, "As pursuitctl track");
     app.add_option("--window-us", options.window_us, "Length of a frame")
         ->check(CLI::Range(1, 1'000'000));
+    app.add_option("--grey-change", options.grey_change,
+                   "Frames of pixels whose ln(grey) changed by this, from exposure measurements; "
+                   "0: of events")
+        ->check(CLI::NonNegativeNumber);
     app.add_option("--gate", registration.gate_px, "Farther pixels are left out, px; 0: none")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--least-points", registration.least_points, "With fewer the pose stays");

@@ -11,9 +11,12 @@ from trackers import OURS, PAPER, TRUTH, FrameBased, Pursuit
 GRADIENT = Pursuit("gradient", estimator="gradient")
 FRAMES = (
     FrameBased("ICP, 200 µs, gated", "icp", 200, ("--gate", 3, "--least-points", 3)),
-    FrameBased("ICP, 10 ms, ungated", "icp", 10_000),
-    FrameBased("ICP, 10 ms, gated", "icp", 10_000, ("--gate", 6)),
+    FrameBased("ICP, 100 grey frames/s, ungated", "icp", 10_000, (), True),
+    FrameBased("ICP, 100 grey frames/s, gated", "icp", 10_000, ("--gate", 6), True),
+    FrameBased("ICP, 100 event frames/s, gated", "icp", 10_000, ("--gate", 6)),
 )
+# How long a measurement of full brightness lasts.
+EXPOSURES = ("sensor.exposure_us=1000",)
 SCENES = ("roadside", "overtake", "street")
 
 
@@ -25,7 +28,7 @@ def run(settings):
               "models of overtake and street carry clicks of 0.5 px.")
     rows = []
     for scene in scenes:
-        streams = [Simulated(scene, s) for s in settings.seeds()]
+        streams = [Simulated(scene, s, EXPOSURES) for s in settings.seeds()]
         cases = [(s, t) for s in streams for t in trackers]
         results = settings.scores.of(cases, d1=True)
         for name in ("van",) if scene == "roadside" else ("van", "car"):
@@ -38,7 +41,7 @@ def run(settings):
             page.text("A run failed: " + failure)
     page.table(["object"] + [t.label for t in trackers], rows)
 
-    stream = Simulated("roadside", settings.seeds()[0])
+    stream = Simulated("roadside", settings.seeds()[0], EXPOSURES)
     files = stream.files(settings.scores.streams)
     compared = (OURS, FRAMES[0], FRAMES[2])
     for t_s in (1.2, 2.4, 3.8):
