@@ -36,9 +36,12 @@ class Estimator {
     virtual void restart(const Pose& pose, const Velocity& velocity) = 0;
     virtual void set_parameters(const ObjectParameters& parameters) = 0;
 
-    /// Goes on at a pose that is known to a px or two, and a velocity known to some px/s.
-    virtual void resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity) {
+    /// Goes on where the object went unseen for way_px: along the way it is known to a few percent
+    /// of it, across the way, and in angle and scale, to a px.
+    virtual void resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity,
+                        double way_px) {
         static_cast<void>(t_us);
+        static_cast<void>(way_px);
         restart(pose, velocity);
     }
     /// How much of what the object's motion would show is not hidden, above 0 … 1.

@@ -26,8 +26,10 @@ void GradientEstimator::set_parameters(const ObjectParameters& parameters) {
 }
 
 Approach GradientEstimator::approach(const Event& event, std::int64_t) {
-    contour_.fit(pose_.a, parameters_.gate_px);
     q_ = Eigen::Vector2d(event.x, event.y) - pose_.t_px;
+    const double reach_px = contour_.radius_px() * pose_.a.norm() + parameters_.gate_px;
+    if (q_.squaredNorm() > reach_px * reach_px) return {};
+    contour_.fit(pose_.a, parameters_.gate_px);
     const Eigen::Vector2d x = pose_.a.inverse() * q_;
     const ImageMetric metric(pose_.a);
     const CandidateGrid& grid = pull_ == Pull::point ? contour_.points() : contour_.pieces();

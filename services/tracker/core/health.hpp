@@ -39,6 +39,9 @@ class Health {
             // Over the last 17 ms where events are many: noise that hides most of them is steady.
             window_ = std::clamp(recent_ / 3, window_events, most_events);
             sharpness_ += (is_sharp - sharpness_) / window_;
+            if (sharpness_ > begin_of_fit) {
+                usual_sharpness_ += (sharpness_ - usual_sharpness_) / usual_events;
+            }
             quiet_sharpness_ = nothing_fits;
             lively_t_us_ = t_us;
             return;
@@ -55,14 +58,20 @@ class Health {
     /// The last event that did not.
     [[nodiscard]] std::int64_t lively_t_us() const { return lively_t_us_; }
 
-    /// Whether the events speak against the pose: at chance, from a part of the contour alone, or a
-    /// little of both.
+    /// Events a second within the gate, over the last 50 ms.
+    [[nodiscard]] double rate_hz(std::int64_t t_us) const {
+        const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
+        return recent_ / memory_s * std::exp(-dt_s / memory_s);
+    }
+
+    /// Whether the events speak against the pose: at chance or far from what is usual for the
+    /// object, from a part of the contour alone, or a little of both.
     [[nodiscard]] bool is_against(double let_go_sharpness, double cover) const {
         // The more events the mean is over, the nearer to chance it can tell.
         const double above_chance =
             (let_go_sharpness - nothing_fits) * std::sqrt(window_events / window_);
-        return sharpness_ < nothing_fits + above_chance || cover < bad_cover ||
-               (sharpness_ < doubtful && cover < doubtful_cover);
+        return sharpness_ < std::max(nothing_fits + above_chance, much_less * usual_sharpness_) ||
+               cover < bad_cover || (sharpness_ < doubtful && cover < doubtful_cover);
     }
 
     /// Between the two nothing changes: a track is not given up and taken up by turns.
@@ -84,12 +93,15 @@ class Health {
     static constexpr double begin_of_fit = 0.42;
     static constexpr double window_events = 150;
     static constexpr double most_events = 2000;
+    static constexpr double usual_events = 10'000;
+    static constexpr double much_less = 0.55;
     static constexpr double doubtful = 0.42;
     static constexpr double doubtful_cover = 0.75;
     static constexpr double memory_s = 0.05;
     static constexpr double own_memory_s = 0.5;
 
     double sharpness_ = begin;
+    double usual_sharpness_ = begin;
     double quiet_sharpness_ = nothing_fits;
     double events_ = 0;
     double recent_ = 0;  // events of the last 50 ms, fading

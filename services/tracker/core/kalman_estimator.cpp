@@ -26,8 +26,11 @@ constexpr double kappa = 0.15;     // px^-1/2
 constexpr double still_px_s = 10;  // v0
 constexpr double start_pose_sigma_px = 1.2;
 constexpr double start_speed_sigma_px_s = 3000;
-constexpr double resumed_pose_sigma_px = 1.2;
-constexpr double resumed_speed_sigma_px_s = 8;
+constexpr double resumed_sigma_px = 0.7;
+constexpr double resumed_sigma_of_way = 0.05;
+constexpr double resumed_turn_sigma_px = 0.4;
+constexpr double resumed_speed_sigma_px_s = 5;
+constexpr double bound_settles = 0.99;  // an event: the bound of the pose's σ back to the usual
 constexpr double most_pose_sigma_px = 1.2;
 constexpr double silent_events = 10;  // expected and not come: it stands still
 
@@ -55,6 +58,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     clock_.restart();
     clutter_.restart();
     noise_gain_ = 1;
+    most_pose_sigma_px_ = most_pose_sigma_px;
     t_us_ = -1;
     way_begin_ = pose;
     contour_.fit(pose.a, Clutter::far_to_px + 1);
@@ -62,13 +66,20 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
 }
 
 template <TransformKind kind>
-void KalmanEstimator<kind>::resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity) {
+void KalmanEstimator<kind>::resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity,
+                                   double way_px) {
     const double per_px = 1 / (contour_.gyration_px() * std::sqrt(std::abs(pose.a.determinant())));
-    Step pose_sigma = Step::Constant(resumed_pose_sigma_px * per_px);
-    pose_sigma.template head<2>().setConstant(resumed_pose_sigma_px);
+    const double along_px = resumed_sigma_px + resumed_sigma_of_way * way_px;
+    Step pose_sigma = Step::Constant(resumed_turn_sigma_px * per_px);
+    pose_sigma.template head<2>().setConstant(resumed_sigma_px);
     Step twist_sigma = Step::Constant(resumed_speed_sigma_px_s * per_px);
     twist_sigma.template head<2>().setConstant(resumed_speed_sigma_px_s);
     filter_.restart(pose, M::twist_of(velocity), pose_sigma, twist_sigma);
+    Eigen::Vector2d direction(velocity.vx_px_s, velocity.vy_px_s);
+    if (direction.norm() > 0) direction.normalize();
+    filter_.add_position_variance((along_px * along_px - resumed_sigma_px * resumed_sigma_px) *
+                                  direction * direction.transpose());
+    most_pose_sigma_px_ = std::max(most_pose_sigma_px, along_px);
     way_begin_ = pose;
     t_us_ = t_us;
 }
@@ -115,10 +126,13 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
         own_px_s > 0 ? silent_events / (clock_.events_per_px(length_px) * own_px_s) : dt_s;
     filter_.predict(dt_s, std::min(dt_s, told_to_move_s), noise);
 
-    // Silence means standing still.
-    if (own_px_s > 0 && told_px_s < 0.6 * own_px_s) {
+    // Silence means standing still; less so where what is hidden, and whose the events beside it
+    // are, is known by half only.
+    const double still_share = visible_share_ < 0.95 ? 0.3 : 0.6;
+    if (own_px_s > 0 && told_px_s < still_share * own_px_s) {
         const double missed = dt_s * clock_.events_per_px(length_px) * own_px_s;
-        const double f = std::min(1.0, missed / silent_events) * (1 - told_px_s / own_px_s / 0.6);
+        const double f =
+            std::min(1.0, missed / silent_events) * (1 - told_px_s / own_px_s / still_share);
         filter_.slow_down(1 - f);
         for (int i = 0; i < Filter::dof; ++i) {
             const double unit = i < 2 ? 1 : 1 / (gyration_px * gyration_px);
@@ -128,7 +142,7 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     const double speed_sigma = std::max(told_px_s, std::min(own_px_s, 3 * told_px_s)) + 30;
     for (int i = 0; i < Filter::dof; ++i) {
         const double unit = i < 2 ? 1 : 1 / (gyration_px * gyration_px);
-        filter_.limit_variance(i, most_pose_sigma_px * most_pose_sigma_px * unit);
+        filter_.limit_variance(i, most_pose_sigma_px_ * most_pose_sigma_px_ * unit);
         filter_.limit_variance(Filter::dof + i, speed_sigma * speed_sigma * unit);
     }
     for (int i = 0; i < Filter::leads; ++i) {
@@ -136,8 +150,21 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     }
 }
 
+// Most events are nowhere near; the pose of the last near one and how far the object can have gone
+// since tell.
+template <TransformKind kind>
+bool KalmanEstimator<kind>::is_beyond(const Event& event) const {
+    if (t_us_ < 0) return false;
+    const Eigen::Vector2d off = Eigen::Vector2d(event.x, event.y) - filter_.pose().t_px;
+    const double gone_px = 2 * speed_px_s_ * static_cast<double>(event.t_us - t_us_) * 1e-6;
+    const double reach_px =
+        contour_.radius_px() * filter_.pose().a.norm() + Clutter::far_to_px + 1 + gone_px;
+    return off.squaredNorm() > reach_px * reach_px;
+}
+
 template <TransformKind kind>
 Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_same_us) {
+    if (is_beyond(event)) return {};
     predict_to(event.t_us);
     const Pose& pose = filter_.pose();
     const double area = pose.a(0, 0) * pose.a(1, 1) - pose.a(0, 1) * pose.a(1, 0);
@@ -217,6 +244,8 @@ bool KalmanEstimator<kind>::take(double weight) {
     noise_gain_ = std::clamp(noise_gain_ * (1 + 0.001 * share * surprise), 0.7, 4.0);
     residual_px_ += 0.01 * share * (std::abs(r) - residual_px_);
 
+    most_pose_sigma_px_ =
+        most_pose_sigma_px + bound_settles * (most_pose_sigma_px_ - most_pose_sigma_px);
     clock_.count(share);
     const double length_px = effective_length_px();
     const double gyration_px = contour_.gyration_px() * scale();

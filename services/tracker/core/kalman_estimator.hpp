@@ -18,7 +18,8 @@ class KalmanEstimator : public Estimator {
 
     void restart(const Pose& pose, const Velocity& velocity) override;
     void set_parameters(const ObjectParameters& parameters) override;
-    void resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity) override;
+    void resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity,
+                double way_px) override;
     void set_visible_share(double share) override { visible_share_ = share; }
     Approach approach(const Event& event, std::int64_t since_same_us) override;
     bool take(double weight) override;
@@ -33,6 +34,7 @@ class KalmanEstimator : public Estimator {
     using M = Motion<kind>;
     using Step = typename M::Step;
 
+    [[nodiscard]] bool is_beyond(const Event& event) const;
     void predict_to(std::int64_t t_us);
     [[nodiscard]] double scale() const;
     [[nodiscard]] double effective_length_px() const;
@@ -55,6 +57,7 @@ class KalmanEstimator : public Estimator {
     Pose way_begin_;
     double noise_gain_ = 1;  // g_R
     double visible_share_ = 1;
+    double most_pose_sigma_px_ = 0;
     double speed_px_s_ = 0;  // u, at the last prediction
     double residual_px_ = 0.5;
     double sampled_for_area_ = 0;

@@ -19,6 +19,9 @@ constexpr double band_px = 1.5;
 constexpr double least_expected = 20;
 constexpr double hidden_share = 0.25;
 constexpr double front_share = 0.4;
+constexpr double surely_expected = 60;
+constexpr double surely_share = 0.7;
+constexpr double stray_events = 5;
 constexpr double forgotten = 0.5;  // expected events
 
 // How deep a place of the image lies inside a track's contour, image px.
@@ -109,14 +112,20 @@ bool Occlusion::is_behind(const Track& one, const Track& other) {
     if (found == evidence_.end()) return false;
     Evidence& evidence = found->second;
     const auto reverse = evidence_.find({other.object_id(), one.object_id()});
-    const bool other_is_seen = reverse != evidence_.end() &&
-                               reverse->second.observed > front_share * reverse->second.expected;
-    if (evidence.expected > least_expected) {
-        if (evidence.observed < hidden_share * evidence.expected && other_is_seen) {
-            evidence.is_behind = true;
-        } else if (evidence.observed > front_share * evidence.expected) {
-            evidence.is_behind = false;
-        }
+    const Evidence none;
+    const Evidence& of_other = reverse == evidence_.end() ? none : reverse->second;
+    const bool is_missing = evidence.expected > least_expected &&
+                            evidence.observed < hidden_share * evidence.expected &&
+                            of_other.observed > front_share * of_other.expected;
+    // What hardly moves across itself misses little; that the other is seen tells as well.
+    const bool other_is_seen = of_other.expected > surely_expected &&
+                               of_other.observed > surely_share * of_other.expected &&
+                               evidence.observed < front_share * evidence.expected + stray_events;
+    if (is_missing || other_is_seen) {
+        evidence.is_behind = true;
+    } else if (evidence.expected > least_expected &&
+               evidence.observed > front_share * evidence.expected) {
+        evidence.is_behind = false;
     }
     return evidence.is_behind;
 }

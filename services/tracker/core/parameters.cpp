@@ -35,6 +35,9 @@ constexpr std::array object_table{
 constexpr std::array tracker_table{
     Parameter<TrackerParameters>{"coast_s", &TrackerParameters::coast_s, 0, 60, "s",
                                  "how long an occluded object may coast before it is lost"},
+    Parameter<TrackerParameters>{"tells_occlusion", &TrackerParameters::tells_occlusion, 0, 1, "1",
+                                 "1: which object hides which is told, and hidden parts take no "
+                                 "events; 0: the occlusion strategy alone decides"},
 };
 
 constexpr std::array strategy_table{
@@ -122,6 +125,7 @@ Preset paper() {
                   {},
                   {}};
     preset.object.gate_px = 3;
+    preset.tracker.tells_occlusion = 0;
     preset.object.let_go_sharpness = 0;  // The paper's tracks have no end.
     preset.object.gradient_position_gain = 0.1;
     preset.object.gradient_angle_gain_rad_px2 = 2e-5;

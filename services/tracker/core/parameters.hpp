@@ -35,6 +35,7 @@ struct ObjectParameters {
 /// The constants of the tracker as a whole.
 struct TrackerParameters {
     double coast_s = 0.8;
+    double tells_occlusion = 1;
 
     friend bool operator==(const TrackerParameters&, const TrackerParameters&) = default;
 };

@@ -15,6 +15,8 @@ constexpr std::size_t most_turns = 64 * 9;
 
 // Below: chance, or a part of the shape alone.
 constexpr double least_score = 0.4;
+// The best of very many poses fits noise better than chance, the more of it there is.
+constexpr double chance_margin = 0.7;
 
 // A pose of the coarse pass is at least this far from its surroundings.
 constexpr double least_z = 2;
@@ -126,9 +128,10 @@ void ShapeSearch::step(int poses) {
         const Candidate& candidate = best_[fine_next_++];
         const Pose pose = fitted(pose_of(candidate));
         const double far = (pose.t_px - range_.around.t_px).norm() / range_.usual_distance_px;
-        const double value = score(pose);
-        const double worth = value - 0.05 * std::min(far * far, 4.0);
-        if (value > least_score && (!found_ || worth > found_->score)) {
+        const Fit fit = fit_of(pose);
+        const double worth = fit.score - 0.05 * std::min(far * far, 4.0);
+        if (fit.score > least_score + chance_margin * fit.chance &&
+            (!found_ || worth > found_->score)) {
             found_ = Found{pose, worth};
         }
         poses -= 300;
@@ -219,7 +222,7 @@ Pose ShapeSearch::fitted(Pose pose) const {
     return pose;
 }
 
-double ShapeSearch::score(const Pose& pose) const {
+ShapeSearch::Fit ShapeSearch::fit_of(const Pose& pose) const {
     double hits = 0;
     double chance = 0;
     const auto has_fired = [&](const Eigen::Vector2d& p_px) {
@@ -235,7 +238,7 @@ double ShapeSearch::score(const Pose& pose) const {
         hits += has_fired(p) / fine_points;
         chance += (has_fired(p + off) + has_fired(p - off)) / (2 * fine_points);
     }
-    return (hits - chance) / std::max(1 - chance, 0.1);
+    return {(hits - chance) / std::max(1 - chance, 0.1), chance};
 }
 
 }  // namespace pursuit::tracker

@@ -77,7 +77,12 @@ class ShapeSearch {
     [[nodiscard]] Pose pose_of(const Candidate& candidate) const;
     [[nodiscard]] double mean_distance(const Pose& pose) const;
     [[nodiscard]] Pose fitted(Pose pose) const;
-    [[nodiscard]] double score(const Pose& pose) const;
+    /// How much of the contour fired beyond chance, and how much beside it.
+    struct Fit {
+        double score;
+        double chance;
+    };
+    [[nodiscard]] Fit fit_of(const Pose& pose) const;
     [[nodiscard]] std::vector<Sample> samples(int count) const;
 
     std::vector<Piece> pieces_;

@@ -17,7 +17,8 @@ class Silhouette {
     Silhouette() = default;
     explicit Silhouette(const Contour& contour);
 
-    /// Model px to the contour, at most `reach_px`: positive inside, negative outside.
+    /// Model px to the contour, at most `reach_px`: positive inside, negative outside. Farther than
+    /// 4 px outside the shape's circle it is just that far outside.
     [[nodiscard]] double depth_px(const Eigen::Vector2d& m) const {
         const double column = (m.x() - left_px_) * cells_per_px_;
         const double row = (m.y() - top_px_) * cells_per_px_;

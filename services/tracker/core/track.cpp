@@ -28,10 +28,11 @@ constexpr double farthest_reach_px = 80;
 constexpr double near_angle_rad = 0.6;
 constexpr double near_log_scale = 0.1;
 constexpr double any_log_scale = 0.27;
+constexpr double adrift_px = 150;  // after a gap between streams, the usual distance
 
 // The events must speak against the pose for this long without a break: models taken from a real
 // recording, and the first moments of slow objects among noise, do so for a while.
-constexpr std::int64_t let_go_after_us = 100'000;
+constexpr std::int64_t let_go_after_us = 80'000;
 
 // Of what shows of a moving object: below the first it is covered, above the second no more.
 constexpr double covered_share = 0.2;
@@ -45,6 +46,8 @@ constexpr double longest_covered_s = 4;
 // ρ is over so many events.
 constexpr double tally_events = 2000;
 constexpr std::int64_t tally_every_us = 16'000;
+
+constexpr std::int64_t believed_after_us = 100'000;
 
 // In silence nothing tells that the object is still there.
 constexpr double sure_s = 0.1;
@@ -92,7 +95,8 @@ void Track::restart(const RegisteredObject& object) {
     make_for(object);
     is_searching_ = object.start.search;
     is_acquiring_ = false;
-    is_covered_ = false;
+    is_covered_ = is_adrift_ = false;
+    acquired_us_ = never_us;
     trial_until_us_ = -1;
     visible_share_ = 1;
     events_per_px2_ = 2;
@@ -113,6 +117,7 @@ void Track::begin_stream() {
     slow_.restart();
     tallied_us_ = -1;
     trial_until_us_ = -1;
+    acquired_us_ = never_us;
     // How long the sensor was away is not known: the last good pose, at rest.
     const Pose last = is_covered_     ? covered_.pose
                       : is_acquiring_ ? good_[1].pose
@@ -121,6 +126,7 @@ void Track::begin_stream() {
     for (Coast& good : good_) good = {0, last, {}};
     last_event_t_us_ = 0;
     lose_grip(0);
+    is_adrift_ = true;
 }
 
 void Track::remember_good(std::int64_t t_us) {
@@ -152,7 +158,9 @@ std::int64_t Track::speaks_against_for(std::int64_t t_us) {
 void Track::acquire(std::int64_t t_us) {
     is_acquiring_ = false;
     is_searching_ = false;
+    is_adrift_ = false;
     trial_until_us_ = -1;
+    acquired_us_ = t_us;
     health_.restart(Health::good);
     cover_->restart();
     estimator_->restart(acquisition_->pose(), acquisition_->velocity());
@@ -173,7 +181,7 @@ std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) c
     SearchRange range;
     if (!is_searching_ && t_us - grip_lost_us_ < unaided_us) return std::nullopt;
     const double gap_s = seconds(t_us - good_[1].t_us);
-    if (!is_searching_ && gap_s < tracker_.coast_s) {
+    if (!is_searching_ && !is_adrift_ && gap_s < tracker_.coast_s) {
         const Velocity& v = good_[1].velocity;
         range.around = coasted(t_us);
         range.reach_px = std::min(near_reach_px + 0.3 * gap_s * std::hypot(v.vx_px_s, v.vy_px_s),
@@ -184,11 +192,11 @@ std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) c
         return range;
     }
     range.around = is_searching_ ? estimator_->pose() : good_[1].pose;
-    range.around.t_px << geometry.width / 2.0, geometry.height / 2.0;
+    if (!is_adrift_) range.around.t_px << geometry.width / 2.0, geometry.height / 2.0;
     range.reach_px = std::max(geometry.width, geometry.height);
     range.angle_rad = std::numbers::pi;
     range.log_scale = has_fixed_scale() ? 0 : any_log_scale;
-    range.usual_distance_px = 1e6;
+    range.usual_distance_px = is_adrift_ ? adrift_px : 1e6;
     return range;
 }
 
@@ -346,7 +354,9 @@ void Track::uncover(std::int64_t t_us) {
     is_covered_ = false;
     health_.restart(Health::good);
     cover_->restart();
-    estimator_->resume(t_us, covered_.pose, covered_.velocity);
+    const double way_px = seconds(t_us - grip_lost_us_) *
+                          std::hypot(covered_.velocity.vx_px_s, covered_.velocity.vy_px_s);
+    estimator_->resume(t_us, covered_.pose, covered_.velocity, way_px);
     for (Coast& good : good_) good = {t_us, covered_.pose, covered_.velocity};
 }
 
@@ -362,6 +372,9 @@ double Track::confidence_at(std::int64_t t_us) const {
     if (is_searching_ || is_acquiring_ || is_covered_) return 0;
     const double sharp = std::clamp((health_.sharpness() - 0.25) / 0.4, 0.0, 1.0);
     const double fit = std::min(sharp, std::clamp((cover_->share() - 0.4) / 0.2, 0.0, 1.0));
+    // What was found again is believed when it has fitted for a while.
+    const bool is_doubted = t_us - acquired_us_ < believed_after_us || against_since_us_ >= 0;
+    if (is_doubted) return std::min(fit, 0.5);
     const double silent_s = seconds(t_us - health_.lively_t_us()) - sure_s;
     return silent_s > 0 ? fit * std::exp(-silent_s / doubt_s) : fit;
 }
@@ -390,6 +403,9 @@ PoseRecord Track::record(std::int64_t t_us) const {
     record.scale_y = scale_y(record.pose.a);
     record.confidence = static_cast<float>(confidence_at(t_us));
     record.events_used = events_used_;
+    if (!is_searching_ && !is_acquiring_ && !is_covered_) {
+        record.event_rate_hz = static_cast<float>(health_.rate_hz(t_us));
+    }
     return record;
 }
 

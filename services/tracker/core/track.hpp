@@ -112,6 +112,8 @@ class Track {
     [[nodiscard]] TrackState state_at(std::int64_t t_us) const;
     [[nodiscard]] double confidence_at(std::int64_t t_us) const;
 
+    static constexpr std::int64_t never_us = -(std::int64_t{1} << 60);
+
     std::uint32_t object_id_ = 0;
     std::string name_;
     TransformKind transform_ = TransformKind::isometry;
@@ -134,6 +136,7 @@ class Track {
     double visible_share_ = 1;
     std::int32_t piece_ = -1;
     bool is_covered_ = false;
+    bool is_adrift_ = false;  // since a new stream began: it may be anywhere
     bool is_searching_ = false;
     bool is_acquiring_ = false;
     bool is_fresh_ = true;  // since the restart no event was taken
@@ -143,6 +146,7 @@ class Track {
     std::int64_t grip_lost_us_ = 0;
     std::int64_t acquisition_began_us_ = 0;
     std::int64_t trial_until_us_ = -1;  // of an offered pose
+    std::int64_t acquired_us_ = never_us;
     double distance_px_ = 0;
     std::int64_t last_event_t_us_ = 0;
     std::uint64_t events_used_ = 0;

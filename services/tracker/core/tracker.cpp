@@ -37,6 +37,7 @@ class Tracker::Impl {
           registry(options.max_objects, options.next_object_id, preset),
           grid(options.pose_rate_hz, options.max_poses_per_s) {
         set_strategy(preset.strategy, preset.strategy_parameters);
+        tells_occlusion = preset.tracker.tells_occlusion >= 0.5;
         claims.reserve(options.max_objects);
         ambiguous.reserve(options.max_objects);
         claimants.reserve(options.max_objects);
@@ -99,7 +100,9 @@ class Tracker::Impl {
     // The paper's algorithm, for one event.
     void process(const Event& event, PoseSink& sink) {
         const std::int64_t since_same_us = recent.note(event);
-        if (event.t_us >= occlusion.next_us()) occlusion.look(event.t_us, tracks);
+        if (tells_occlusion && event.t_us >= occlusion.next_us()) {
+            occlusion.look(event.t_us, tracks);
+        }
         seeker.work(event.t_us, tracks);
         seeker.see(event);
 
@@ -110,7 +113,7 @@ class Tracker::Impl {
             Track& track = tracks[i];
             const Approach near = track.approach(event, since_same_us);
             if (!near.is_within()) continue;
-            if (occlusion.hides(i, event, tracks)) {
+            if (tells_occlusion && occlusion.hides(i, event, tracks)) {
                 track.deny(event);
                 continue;
             }
@@ -187,6 +190,7 @@ class Tracker::Impl {
     std::unique_ptr<Strategy> strategy;
     double ambiguity_px = 3;
     std::vector<Track> tracks;  // in order of ids
+    bool tells_occlusion = true;
     Occlusion occlusion;
     Seeker seeker;
 
@@ -307,6 +311,7 @@ CallResult<void> Tracker::set_parameters(std::string_view name,
     if (!changed) return changed;
     impl_->hold([impl = impl_.get(), objects = impl_->registry.objects(),
                  tracker = impl_->registry.settings().tracker] {
+        impl->tells_occlusion = tracker.tells_occlusion >= 0.5;
         for (const RegisteredObject& object : objects) {
             if (Track* track = impl->find_track(object.object_id)) {
                 track->set_parameters(object.parameters, tracker);

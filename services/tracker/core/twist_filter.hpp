@@ -104,6 +104,9 @@ class TwistFilter {
         lead_px_ = lead_px_.cwiseMax(low_px).cwiseMin(high_px);
     }
     void slow_down(double factor) { twist_ *= factor; }
+    void add_position_variance(const Eigen::Matrix2d& variance_px2) {
+        covariance_.template topLeftCorner<2, 2>() += variance_px2;
+    }
     void add_variance(int i, double variance) { covariance_(i, i) += variance; }
 
     [[nodiscard]] const Pose& pose() const { return pose_; }
