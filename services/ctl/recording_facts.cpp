@@ -35,6 +35,7 @@ void add(RecordingFacts& facts, const Event& event) {
         facts.longest_gap_us = event.t_us - facts.last_t_us;
         facts.gap_t_us = facts.last_t_us;
     }
+    facts.silences += event.t_us - facts.last_t_us >= silence_us ? 1 : 0;
     facts.last_t_us = event.t_us;
     facts.x_min = std::min(facts.x_min, event.x);
     facts.x_max = std::max(facts.x_max, event.x);
@@ -50,15 +51,18 @@ void add(RecordingFacts& facts, const Event& event) {
 RecordingFacts facts_of(sensor::EventReader& recording) {
     RecordingFacts facts;
     facts.geometry = recording.geometry();
-    std::vector<Event> block(8192);
+    std::vector<Event> events(8192);
+    std::vector<Event> exposures(8192);
     for (;;) {
-        const auto read = recording.read(block);
-        if (!read) {
-            facts.fault = read.error().message;
+        const auto batch = recording.read(events, exposures);
+        facts.events_skipped = recording.events_skipped();
+        facts.exposures = recording.exposures_read();
+        if (!batch) {
+            facts.fault = batch.error().message;
             return facts;
         }
-        if (*read == 0) return facts;
-        for (std::size_t i = 0; i < *read; ++i) add(facts, block[i]);
+        if (batch->at_end) return facts;
+        for (std::size_t i = 0; i < batch->events; ++i) add(facts, events[i]);
     }
 }
 

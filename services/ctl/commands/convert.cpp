@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "services/ctl/commands/offline_commands.hpp"
@@ -20,18 +23,39 @@ struct Options {
     std::string geometry;
     double from_s = 0;
     double to_s = 0;
+    bool from_zero = false;
 };
 
-/// Copies all events; where the recording ends in an error, those before it.
-Result<void> copy(sensor::EventReader& recording, sensor::EventWriter& writer) {
-    std::vector<Event> block(8192);
+/// Copies all events, and exposure measurements where the writer holds them; where the recording
+/// ends in an error, those before it. from_zero: the first of either is at time 0.
+Result<void> copy(sensor::EventReader& recording, sensor::EventWriter& writer, bool from_zero) {
+    std::vector<Event> events(8192);
+    std::vector<Event> exposures(8192);
+    std::optional<std::int64_t> zero_us;
+    const auto shift = [&](std::span<Event> block) {
+        for (auto& event : block) event.t_us -= *zero_us;
+    };
     for (;;) {
-        const auto count = recording.read(block);
-        if (!count || *count == 0) {
+        const auto batch = recording.read(events, exposures);
+        if (!batch || batch->at_end) {
             if (auto ok = writer.close(); !ok) return ok;
-            return count ? Result<void>{} : tl::unexpected(count.error());
+            return batch ? Result<void>{} : tl::unexpected(batch.error());
         }
-        if (auto ok = writer.write(std::span(block).first(*count)); !ok) return ok;
+        const auto read_events = std::span(events).first(batch->events);
+        const auto read_exposures = std::span(exposures).first(batch->exposures);
+        if (from_zero && !zero_us && batch->events + batch->exposures > 0) {
+            zero_us = std::numeric_limits<std::int64_t>::max();
+            if (!read_events.empty()) zero_us = read_events.front().t_us;
+            if (!read_exposures.empty()) {
+                zero_us = std::min(*zero_us, read_exposures.front().t_us);
+            }
+        }
+        if (zero_us) {
+            shift(read_events);
+            shift(read_exposures);
+        }
+        const auto held = writer.holds_exposures() ? read_exposures : std::span<Event>{};
+        if (auto ok = writer.write(read_events, held); !ok) return ok;
     }
 }
 
@@ -43,10 +67,20 @@ int convert(const Options& options) {
     auto recording = sensor::open_events(options.from, {options.format, *geometry});
     if (!recording) return report(recording.error());
     const auto events = sensor::in_range(std::move(*recording), *range);
-    auto writer = sensor::create_events(options.to, events->geometry());
+    auto writer = sensor::create_events(options.to, events->geometry(), events->has_exposures());
     if (!writer) return report(writer.error());
-    const auto copied = copy(*events, **writer);
+    const auto copied = copy(*events, **writer, options.from_zero);
     std::printf("%" PRIu64 " events\n", (*writer)->events_written());
+    if ((*writer)->holds_exposures()) {
+        std::printf("%" PRIu64 " exposure measurements\n", (*writer)->exposures_written());
+    } else if (events->exposures_read() > 0) {
+        std::printf("%" PRIu64 " exposure measurements left out: %s cannot hold them\n",
+                    events->exposures_read(), options.to.c_str());
+    }
+    if (events->events_skipped() > 0) {
+        std::printf("%" PRIu64 " events of FROM skipped: without time, or of another camera\n",
+                    events->events_skipped());
+    }
     return copied ? exit_success : report(copied.error());
 }
 
@@ -56,10 +90,12 @@ Run define_convert(CLI::App& app) {
     auto options = std::make_shared<Options>();
     app.add_option("FROM", options->from, "Recording of events")->required();
     app.add_option("TO", options->to, "File to write; its extension is its format")->required();
-    app.add_option("--format", options->format, "Format of FROM, where the file does not tell");
+    app.add_option("--format", options->format, format_help());
     app.add_option("--geometry", options->geometry, geometry_help);
     app.add_option("--from", options->from_s, "Begin here, seconds of the recording's time");
     app.add_option("--to", options->to_s, "End before here; 0: to the end");
+    app.add_flag("--from-zero", options->from_zero,
+                 "Count time from the first event: DAT and Event Stream hold no dates");
     return [options] { return convert(*options); };
 }
 

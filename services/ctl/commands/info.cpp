@@ -26,6 +26,13 @@ void print(const RecordingFacts& facts) {
     std::printf("pixels    %ux%u\n", unsigned{facts.geometry.width},
                 unsigned{facts.geometry.height});
     std::printf("events    %" PRIu64 "\n", facts.events);
+    if (facts.events_skipped > 0) {
+        std::printf("skipped   %" PRIu64 " events without time, or of another camera\n",
+                    facts.events_skipped);
+    }
+    if (facts.exposures > 0) {
+        std::printf("exposures %" PRIu64 " measurements\n", facts.exposures);
+    }
     if (facts.events == 0) return;
     const double on_pct =
         100 * static_cast<double>(facts.on_events) / static_cast<double>(facts.events);
@@ -35,8 +42,9 @@ void print(const RecordingFacts& facts) {
                 facts.last_t_us, duration_s);
     std::printf("x, y      %u to %u, %u to %u\n", unsigned{facts.x_min}, unsigned{facts.x_max},
                 unsigned{facts.y_min}, unsigned{facts.y_max});
-    std::printf("silence   at most %" PRId64 " us, from %" PRId64 " us\n", facts.longest_gap_us,
-                facts.gap_t_us);
+    std::printf("silence   at most %" PRId64 " us, from %" PRId64 " us; %" PRIu64
+                " of 100 ms or more\n",
+                facts.longest_gap_us, facts.gap_t_us, facts.silences);
     if (duration_s > 0) {
         std::printf("rate      %.0f events/s, over time in steps of %.4g ms:\n",
                     static_cast<double>(facts.events) / duration_s,
@@ -65,7 +73,7 @@ Run define_info(CLI::App& app) {
     auto options = std::make_shared<Options>();
     app.add_option("FILE", options->events, "Recording: of events, or of topics (MCAP)")
         ->required();
-    app.add_option("--format", options->format, "Format, where the file does not tell");
+    app.add_option("--format", options->format, format_help());
     app.add_option("--geometry", options->geometry, geometry_help);
     app.add_flag("--full", options->full, "MCAP: read everything and check it");
     app.add_flag("--json", options->json, "MCAP: as one JSON object");

@@ -3,7 +3,17 @@
 
 #include <charconv>
 
+#include "services/sensor/formats/formats.hpp"
+
 namespace pursuit::ctl {
+
+std::string format_help() {
+    std::string names;
+    for (const auto& format : sensor::formats()) {
+        names += (names.empty() ? "" : ", ") + std::string(format.name);
+    }
+    return "Format, where the file does not tell: " + names;
+}
 
 Result<std::optional<Geometry>> geometry_of(const std::string& text) {
     if (text.empty()) return std::optional<Geometry>{};

@@ -28,6 +28,19 @@ TEST(RecordingFacts, of_one_event_and_of_a_fault) {
     EXPECT_EQ(rate_picture(facts), "█");
 }
 
+TEST(RecordingFacts, count_long_silences_and_exposure_measurements) {
+    const auto facts = facts_of_text("0.1 1 1 1\n0.2 1 1 0\n0.299999 1 1 1\n0.6 1 1 1\n");
+    EXPECT_EQ(facts.silences, 2U);
+    EXPECT_EQ(facts.longest_gap_us, 300'001);
+    const std::string atis("Event Stream\2\0\0\2\5\0\5\0\6\1\0\1\0\5\1\0\1\0\7\1\0\1\0", 35);
+    auto recording = sensor::open_events(sensor::from_memory(
+        "a.es", {reinterpret_cast<const std::uint8_t*>(atis.data()), atis.size()}));
+    const auto of_atis = facts_of(**recording);
+    EXPECT_EQ(of_atis.fault, "");
+    EXPECT_EQ(of_atis.events, 1U);
+    EXPECT_EQ(of_atis.exposures, 2U);
+}
+
 TEST(RecordingFacts, find_the_longest_silence_and_count_every_event_into_a_bin) {
     std::string text;
     for (int i = 0; i < 5000; ++i) {
