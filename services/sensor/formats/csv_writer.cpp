@@ -23,23 +23,18 @@ class CsvWriter final : public EventWriter {
     Result<void> close() override { return file_.close(); }
 
  protected:
-    Result<void> encode(std::span<const Event> events,
-                        std::span<const Event> /*exposures*/) override {
+    Result<void> encode(const Event& event, bool /*is_exposure*/) override {
         std::array<char, 48> line;  // 19 + 5 + 5 + 1 digits, three commas, an end
-        for (const auto& event : events) {
-            char* at = line.data();
-            const auto append = [&](auto number, char separator) {
-                at = std::to_chars(at, line.data() + line.size() - 1, number).ptr;
-                *at++ = separator;
-            };
-            append(event.t_us, ',');
-            append(event.x, ',');
-            append(event.y, ',');
-            append(unsigned{event.polarity}, '\n');
-            const std::string_view text(line.data(), static_cast<std::size_t>(at - line.data()));
-            if (auto ok = file_.write(text); !ok) return ok;
-        }
-        return {};
+        char* at = line.data();
+        const auto append = [&](auto number, char separator) {
+            at = std::to_chars(at, line.data() + line.size() - 1, number).ptr;
+            *at++ = separator;
+        };
+        append(event.t_us, ',');
+        append(event.x, ',');
+        append(event.y, ',');
+        append(unsigned{event.polarity}, '\n');
+        return file_.write({line.data(), static_cast<std::size_t>(at - line.data())});
     }
 
  private:

@@ -26,29 +26,22 @@ class DatWriter final : public EventWriter {
     Result<void> close() override { return file_.close(); }
 
  protected:
-    Result<void> encode(std::span<const Event> events,
-                        std::span<const Event> /*exposures*/) override {
-        for (const auto& event : events) {
-            const bool wraps = event.t_us / wrap_us != last_t_us_ / wrap_us;
-            if (wraps && event.t_us - last_t_us_ >= wrap_us / 2) {
-                return fail(name() + ": DAT cannot hold the step of time from " +
-                            std::to_string(last_t_us_) + " to " + std::to_string(event.t_us) +
-                            " us");
-            }
-            last_t_us_ = event.t_us;
-            const std::uint32_t words[2] = {static_cast<std::uint32_t>(event.t_us),
-                                            event.x | static_cast<std::uint32_t>(event.y) << 14 |
-                                                static_cast<std::uint32_t>(event.polarity) << 28};
-            char bytes[sizeof words];
-            std::memcpy(bytes, words, sizeof words);
-            if (auto ok = file_.write({bytes, sizeof bytes}); !ok) return ok;
+    Result<void> encode(const Event& event, bool /*is_exposure*/) override {
+        const bool wraps = event.t_us / wrap_us != last_t_us() / wrap_us;
+        if (wraps && event.t_us - last_t_us() >= wrap_us / 2) {
+            return fail(name() + ": DAT cannot hold the step of time from " +
+                        std::to_string(last_t_us()) + " to " + std::to_string(event.t_us) + " us");
         }
-        return {};
+        const std::uint32_t words[2] = {static_cast<std::uint32_t>(event.t_us),
+                                        event.x | static_cast<std::uint32_t>(event.y) << 14 |
+                                            static_cast<std::uint32_t>(event.polarity) << 28};
+        char bytes[sizeof words];
+        std::memcpy(bytes, words, sizeof words);
+        return file_.write({bytes, sizeof bytes});
     }
 
  private:
     OutputFile file_;
-    std::int64_t last_t_us_ = 0;
 };
 
 }  // namespace

@@ -35,30 +35,16 @@ class EsWriter final : public EventWriter {
     Result<void> close() override { return file_.close(); }
 
  protected:
-    Result<void> encode(std::span<const Event> events, std::span<const Event> exposures) override {
-        while (!events.empty() || !exposures.empty()) {
-            const bool is_exposure =
-                events.empty() ||
-                (!exposures.empty() && exposures.front().t_us < events.front().t_us);
-            auto& next = is_exposure ? exposures : events;
-            if (auto ok = append(next.front(), is_exposure); !ok) return ok;
-            next = next.subspan(1);
-        }
-        return {};
-    }
-
- private:
-    Result<void> append(const Event& event, bool is_exposure) {
-        const auto step_us = event.t_us - last_t_us_;
+    Result<void> encode(const Event& event, bool is_exposure) override {
+        const auto step_us = event.t_us - last_t_us();
         if (step_us >= longest_step_us) {
             return fail(name() + ": Event Stream cannot hold the step of time from " +
-                        std::to_string(last_t_us_) + " to " + std::to_string(event.t_us) + " us");
+                        std::to_string(last_t_us()) + " to " + std::to_string(event.t_us) + " us");
         }
         for (auto units = step_us / Kind::unit_us; units > 0; units -= Kind::most_units) {
             const char byte = static_cast<char>(Kind::no_units | std::min(units, Kind::most_units));
             if (auto ok = file_.write({&byte, 1}); !ok) return ok;
         }
-        last_t_us_ = event.t_us;
         const auto y = static_cast<std::uint16_t>(geometry().height - 1 - event.y);
         char bytes[es::event_bytes];
         bytes[0] =
@@ -68,8 +54,8 @@ class EsWriter final : public EventWriter {
         return file_.write({bytes, sizeof bytes});
     }
 
+ private:
     OutputFile file_;
-    std::int64_t last_t_us_ = 0;
 };
 
 template <class Kind>

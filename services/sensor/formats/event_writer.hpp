@@ -21,18 +21,29 @@ class EventWriter {
     virtual bool holds_exposures() const { return false; }
 
     /// Appends events and exposure measurements, each in order of time and none earlier than what
-    /// was written before. Refuses, from the first on, those that break the readers' contract
-    /// (order of time, geometry, polarity); those before are written.
+    /// was written before; of one time, events first. Refuses the first that breaks the readers'
+    /// contract (order of time, geometry, polarity), or that the format cannot hold, and what comes
+    /// after it; what comes before is written and counted.
     Result<void> write(std::span<const Event> events, std::span<const Event> exposures = {}) {
         if (!exposures.empty() && !holds_exposures()) {
             return fail(name_ + ": this file holds no exposure measurements");
         }
-        const auto until_us = last_t_us_;
-        Result<void> ok;
-        const auto good_events = check(events, "event ", events_, until_us, ok);
-        const auto good_exposures = check(exposures, "exposure ", exposures_, until_us, ok);
-        const auto written = encode(events.first(good_events), exposures.first(good_exposures));
-        return written ? ok : written;
+        while (!events.empty() || !exposures.empty()) {
+            const bool is_exposure =
+                events.empty() ||
+                (!exposures.empty() && exposures.front().t_us < events.front().t_us);
+            auto& next = is_exposure ? exposures : events;
+            auto& count = is_exposure ? exposures_ : events_;
+            if (const auto cause = fault(next.front()); !cause.empty()) {
+                return fail(name_ + (is_exposure ? ": exposure " : ": event ") +
+                            std::to_string(count) + ": " + cause);
+            }
+            if (auto ok = encode(next.front(), is_exposure); !ok) return ok;
+            last_t_us_ = next.front().t_us;
+            ++count;
+            next = next.subspan(1);
+        }
+        return {};
     }
 
     virtual Result<void> close() = 0;
@@ -44,33 +55,19 @@ class EventWriter {
     EventWriter(std::string name, Geometry geometry)
         : name_(std::move(name)), geometry_(geometry) {}
 
-    /// Both are good; exposures only where the file holds them.
-    virtual Result<void> encode(std::span<const Event> events,
-                                std::span<const Event> exposures) = 0;
+    /// Appends a good event; an exposure measurement only where the file holds them.
+    virtual Result<void> encode(const Event& event, bool is_exposure) = 0;
+
+    /// Of the last event or measurement written; 0 before the first.
+    std::int64_t last_t_us() const { return last_t_us_; }
 
     const std::string& name() const { return name_; }
     Geometry geometry() const { return geometry_; }
 
  private:
-    /// Counts the good ones up to the first bad one, which makes `ok` an error.
-    std::size_t check(std::span<const Event> block, const char* what, std::uint64_t& count,
-                      std::int64_t earliest_us, Result<void>& ok) {
-        for (std::size_t i = 0; i < block.size(); ++i) {
-            const auto cause = fault(block[i], earliest_us);
-            if (!cause.empty()) {
-                ok = fail(name_ + ": " + what + std::to_string(count) + ": " + cause);
-                return i;
-            }
-            earliest_us = block[i].t_us;
-            if (earliest_us > last_t_us_) last_t_us_ = earliest_us;
-            ++count;
-        }
-        return block.size();
-    }
-
-    std::string fault(const Event& event, std::int64_t earliest_us) const {
-        if (event.t_us < earliest_us) {
-            return "time goes back from " + std::to_string(earliest_us) + " to " +
+    std::string fault(const Event& event) const {
+        if (event.t_us < last_t_us_) {
+            return "time goes back from " + std::to_string(last_t_us_) + " to " +
                    std::to_string(event.t_us) + " us";
         }
         if (event.x >= geometry_.width || event.y >= geometry_.height) {

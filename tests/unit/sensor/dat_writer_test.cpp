@@ -65,6 +65,7 @@ TEST(DatWriter, refuses_events_that_no_reader_would_take_and_keeps_those_before)
         ASSERT_FALSE(ok);
         EXPECT_THAT(ok.error().message, HasSubstr(path + ": "));
         EXPECT_THAT(ok.error().message, HasSubstr(cause));
+        EXPECT_EQ((*writer)->events_written(), 1U);
         ASSERT_TRUE((*writer)->close());
         EXPECT_EQ(read_file(path).events, (std::vector<Event>{{10, 1, 1, 0}}));
     }
