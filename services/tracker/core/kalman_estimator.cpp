@@ -276,16 +276,35 @@ void KalmanEstimator<kind>::describe(std::int64_t t_us, PoseRecord& record) cons
         if (moving_s > 0) Filter::move(moving_s, record.pose, twist);
     }
     record.velocity = M::velocity(twist, record.pose.a);
-    record.pose_covariance.fill(std::nan(""));
-    record.velocity_covariance.fill(std::nan(""));
+    describe_covariance(t_us, record);
+    record.mean_residual_px = static_cast<float>(residual_px_);
+}
+
+template <TransformKind kind>
+void KalmanEstimator<kind>::describe_covariance(std::int64_t t_us, PoseRecord& record) const {
+    // As far as the state is known, and how far it can have gone since the last event near it.
+    using Square = Eigen::Matrix<double, Filter::dof, Filter::dof>;
+    const double dt_s = t_us_ < 0 ? 0 : static_cast<double>(t_us - t_us_) * 1e-6;
+    const auto& p = filter_.covariance();
+    const Square pv = p.template block<Filter::dof, Filter::dof>(0, Filter::dof);
+    const Square vv = p.template block<Filter::dof, Filter::dof>(Filter::dof, Filter::dof);
+    const Square pose = p.template topLeftCorner<Filter::dof, Filter::dof>() +
+                        dt_s * (pv + pv.transpose()) + dt_s * dt_s * vv;
+    const auto j = M::readable(record.pose.a);
+    const Eigen::Matrix<double, 6, 6> read = j * pose * j.transpose();
     std::size_t i = 0;
-    for (int row = 0; row < 3; ++row) {
-        for (int column = row; column < 3; ++column, ++i) {
-            record.velocity_covariance[i] =
-                filter_.covariance()(Filter::dof + row, Filter::dof + column);
+    for (int row = 0; row < 6; ++row) {
+        for (int column = row; column < 6; ++column, ++i) {
+            record.pose_covariance[i] = read(row, column);
         }
     }
-    record.mean_residual_px = static_cast<float>(residual_px_);
+    const Eigen::Matrix<double, 6, 6> read_rate = j * vv * j.transpose();
+    i = 0;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = row; column < 3; ++column, ++i) {
+            record.velocity_covariance[i] = read_rate(row, column);
+        }
+    }
 }
 
 template class KalmanEstimator<TransformKind::isometry>;

@@ -30,6 +30,8 @@ class KalmanEstimator : public Estimator {
     void describe(std::int64_t t_us, PoseRecord& record) const override;
 
  private:
+    void describe_covariance(std::int64_t t_us, PoseRecord& record) const;
+
     using Filter = TwistFilter<kind>;
     using M = Motion<kind>;
     using Step = typename M::Step;

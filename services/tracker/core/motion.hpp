@@ -121,6 +121,27 @@ struct Motion {
         return twist;
     }
 
+    /// d(x, y, theta, log scale_x, log scale_y, shear)/d(step): how a small step reads. The shear
+    /// is the cosine of the angle between the images of the model's axes.
+    static Eigen::Matrix<double, 6, dof> readable(const Eigen::Matrix2d& a) {
+        Eigen::Matrix<double, 6, dof> j = Eigen::Matrix<double, 6, dof>::Zero();
+        j(0, 0) = j(1, 1) = 1;
+        if constexpr (kind == TransformKind::full_affine) {
+            const Eigen::Vector2d x = a.col(0).normalized();
+            const Eigen::Vector2d y = a.col(1).normalized();
+            j.template rightCols<4>().row(2) << 0, -0.5, 0.5, 0;
+            j.template rightCols<4>().row(3) << x(0) * x(0), x(0) * x(1), x(1) * x(0), x(1) * x(1);
+            j.template rightCols<4>().row(4) << y(0) * y(0), y(0) * y(1), y(1) * y(0), y(1) * y(1);
+            j.template rightCols<4>().row(5) << 2 * x(0) * y(0), x(0) * y(1) + x(1) * y(0),
+                x(0) * y(1) + x(1) * y(0), 2 * x(1) * y(1);
+        } else {
+            j(2, 2) = 1;
+            if constexpr (kind == TransformKind::similarity) j(3, 3) = j(4, 3) = 1;
+            if constexpr (kind == TransformKind::paper_affine) j(3, 3) = j(4, 4) = 1;
+        }
+        return j;
+    }
+
  private:
     static double grown(double log_scale) { return 1 + log_scale * (1 + log_scale / 2); }
 };
