@@ -114,6 +114,9 @@ def main():
                 continue
             beginning = path.read_bytes()[:BEGINNING.get(name, 1500)]
             (folder / name / path.name).write_bytes(beginning + HOW)
+        # Given as a list, not as a folder: to a folder the fuzzers would add what they find.
+        paths = sorted(str(path) for path in (folder / name).iterdir())
+        (folder / f"{name}.list").write_text(",".join(paths))
 
 
 if __name__ == "__main__":
