@@ -76,7 +76,8 @@ def main():
         if options.readme:
             with open(os.path.join(options.out, page.name + ".md")) as file:
                 update_readme(group, file.read(), f"tests/experiments/run.sh {group}"
-                              f"{' --quick' if options.quick else ''}")
+                              f"{' --quick' if options.quick else ''}"
+                              f"{f' --seeds {options.seeds}' if options.seeds else ''}")
         print(f"{os.path.join(options.out, page.name)}.html ({time.monotonic() - begin:.0f} s)",
               flush=True)
 

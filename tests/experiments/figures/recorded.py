@@ -127,8 +127,8 @@ def run(_):
     page.heading("Shapes before a DAVIS")
     page.text("px between the way of the shape's centre over 74 ms and what the gyroscope's "
               "rotation makes of it, in the undistorted image; the way is 9 to 12 px. Beside it how "
-              "far each is from the mean over the three shapes: what is common to all of them is "
-              "the camera's own shift or the gyroscope's scale, and no matter of the tracker.")
+              "far each is from the mean over the three shapes: what is common to all of them "
+              "may be the camera's own shift, which a gyroscope does not see.")
     rows = []
     for estimator in ("kalman", "gradient"):
         for transform in ("isometry", "similarity"):
