@@ -30,10 +30,18 @@ const EventBatch* Packetizer::next() {
         events_ = events_.subspan(1);
         if (batch_.words.size() >= limits_.packet_events) return close(last_t_us_);
     }
+    if (open_) {
+        const auto end_us = batch_.base_time_us + limits_.packet_us;
+        if (reached_us_ >= end_us) return close(end_us);
+        if (flushing_ || finished_) return close(last_t_us_);
+    } else if (reached_us_ >= 0) {
+        if (!known_us_) return empty(reached_us_);
+        if (reached_us_ > *known_us_ + silence_us) return empty(*known_us_ + silence_us);
+    }
+    flushing_ = false;
     if (!finished_ || ended_) return nullptr;
-    if (open_) return close(last_t_us_);
     ended_ = true;
-    const auto* batch = empty(known_us_ ? last_t_us_ + 1 : 0);
+    const auto* batch = empty(known_us_ ? std::max(last_t_us_ + 1, *known_us_) : 0);
     batch_.end_of_stream = true;
     return batch;
 }

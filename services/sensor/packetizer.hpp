@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -30,9 +31,9 @@ struct EventBatch {
 ///
 /// A stream that is cut short ends in order too: push({}), finish(), next() until null.
 ///
-/// Pull: push() a span of events, then next() until it returns null, again and again; finish()
-/// once, then next() until null. One batch is held at a time, whatever gaps the times have.
-/// One thread.
+/// Pull: push() a span of events and advance() to the time reached, then next() until it returns
+/// null, again and again; finish() once, then next() until null. One batch is held at a time,
+/// whatever gaps the times have. One thread.
 class Packetizer {
  public:
     struct Limits {
@@ -48,6 +49,13 @@ class Packetizer {
     /// has returned null.
     void push(std::span<const Event> events) { events_ = events; }
 
+    /// Event time has reached t_us: no event that follows those pushed is earlier. Without it time
+    /// is that of the last event pushed.
+    void advance(std::int64_t t_us) { reached_us_ = std::max(reached_us_, t_us); }
+
+    /// Closes the batch that is being filled, once what was pushed is in it.
+    void flush() { flushing_ = true; }
+
     /// No event follows.
     void finish() { finished_ = true; }
 
@@ -61,6 +69,8 @@ class Packetizer {
 
     Limits limits_;
     std::span<const Event> events_;
+    std::int64_t reached_us_ = -1;  // none yet
+    bool flushing_ = false;
     bool finished_ = false;
     bool ended_ = false;
     bool open_ = false;  // batch_ is being filled

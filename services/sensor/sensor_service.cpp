@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "services/sensor/filter_wire.hpp"
 #include "services/sensor/source.hpp"
 
 namespace pursuit::sensor {
@@ -28,16 +29,27 @@ Result<std::unique_ptr<Service>> SensorService::make(const disk::SensorConfig& c
         return fail("field rate is " + std::to_string(config.rate()) +
                     ", must be 0 or at least 0.001");
     }
+    auto settings = filters_of(config);
+    if (!settings) return tl::unexpected(settings.error());
+    auto filters = FilterSwitch::make(std::move(*settings));
+    if (!filters) return fail("field " + filters.error().message);
     auto source = open_source(config);
     if (!source) return tl::unexpected(source.error());
-    return std::unique_ptr<Service>(new SensorService(config, std::move(*source)));
+    if (auto fits = (*filters)->begin((*source)->geometry()); !fits) {
+        return fail("field " + fits.error().message);
+    }
+    return std::unique_ptr<Service>(
+        new SensorService(config, std::move(*filters), std::move(*source)));
 }
 
-SensorService::SensorService(const disk::SensorConfig& config, std::unique_ptr<EventReader> source)
+SensorService::SensorService(const disk::SensorConfig& config,
+                             std::unique_ptr<FilterSwitch> filters,
+                             std::unique_ptr<EventReader> source)
     : config_(config),
       instance_(config.name().empty() ? "default" : config.name()),
       health_(config),
       pacer_(clock_, config.rate()),
+      filters_(std::move(filters)),
       source_(std::move(source)) {}
 
 Result<void> SensorService::start() {
@@ -48,32 +60,57 @@ Result<void> SensorService::start() {
     auto events = Writer<v1::EventPacket>::create(*participant_, topic::events);
     if (!events) return tl::unexpected(events.error());
     events_ = std::move(*events);
+    auto exposures = Writer<v1::EventPacket>::create(*participant_, topic::exposures);
+    if (!exposures) return tl::unexpected(exposures.error());
+    exposures_ = std::move(*exposures);
     auto status = Writer<v1::SensorStatus>::create(*participant_, topic::sensor_status);
     if (!status) return tl::unexpected(status.error());
     status_ = std::move(*status);
-    publisher_ = std::make_unique<EventPublisher>(config_, *events_, pacer_, clock_, health_);
-    auto requests = RequestServer<v1::SensorRequest, v1::SensorReply>::create(
+    publisher_ = std::make_unique<EventPublisher>(config_, *events_, *exposures_, pacer_, clock_,
+                                                  health_, *filters_);
+    auto requests = Requests::create(
         *participant_, topic::sensor_request, topic::sensor_reply, instance_,
-        [this](v1::SensorRequest& request, auto& server) {
-            server.answer(request.header().request_id(), serve(request));
-        });
+        [this](v1::SensorRequest& request, auto& server) { receive(request, server); });
     if (!requests) return tl::unexpected(requests.error());
     requests_ = std::move(*requests);
     publisher_->start(std::move(source_));
     return {};
 }
 
+void SensorService::receive(const v1::SensorRequest& request, Requests& server) {
+    if (request.call()._d() == v1::SENSOR_SET_FILTERS) {
+        // Files are read and tables filled for it: not on the middleware's thread.
+        const std::scoped_lock lock(filter_requests_mutex_);
+        filter_requests_.emplace_back(request.header().request_id(), request.call().set_filters());
+        return;
+    }
+    server.answer(request.header().request_id(), serve(request));
+}
+
+void SensorService::set_filters() {
+    std::deque<std::pair<v1::RequestId, v1::SetFilters>> requests;
+    {
+        const std::scoped_lock lock(filter_requests_mutex_);
+        requests.swap(filter_requests_);
+    }
+    for (const auto& [id, call] : requests) {
+        v1::SensorReply reply;
+        reply.result().set_filters({});
+        auto wanted = filters_of(call);
+        if (wanted.code != v1::STATUS_OK) {
+            refuse(reply, wanted.code, wanted.message);
+        } else if (auto ok = filters_->set(std::move(wanted.settings)); !ok) {
+            refuse(reply, v1::STATUS_INVALID_ARGUMENT, "field set_filters." + ok.error().message);
+        }
+        requests_->answer(id, reply);
+        changed_ = true;
+    }
+}
+
 v1::SensorReply SensorService::serve(const v1::SensorRequest& request) {
     v1::SensorReply reply;
     const auto kind = request.call()._d();
     switch (kind) {
-        case v1::SENSOR_SET_FILTERS:
-            reply.result().set_filters({});
-            if (!request.call().set_filters().filters().empty()) {
-                refuse(reply, v1::STATUS_UNSUPPORTED,
-                       "field set_filters.filters: this version has no filters");
-            }
-            break;
         case v1::SENSOR_SET_RATE: {
             reply.result().set_rate({});
             const double rate = request.call().set_rate().rate();
@@ -136,14 +173,25 @@ v1::SensorStatus SensorService::status() const {
     status.events_in(counts.events_in);
     status.events_out(counts.events_out);
     status.packets_out(counts.packets_out);
-    status.events_dropped(counts.events_unsent);
-    const auto cause = [&](const char* name, std::uint64_t count) {
+    status.exposures_out(counts.exposures_out);
+    std::uint64_t dropped = 0;
+    const auto cause = [&](const std::string& name, std::uint64_t count) {
         v1::NamedCount entry;
         entry.name(name);
         entry.count(count);
         status.dropped_by().push_back(entry);
     };
-    cause("events.write_failed", counts.events_unsent);
+    const auto events = [&](const std::string& name, std::uint64_t count) {
+        cause(name, count);
+        dropped += count;
+    };
+    events("events.write_failed", counts.events_unsent);
+    for (std::size_t kind = 0; kind < counts.filtered.size(); ++kind) {
+        events("filter." + std::string(filter_kinds()[kind].name), counts.filtered[kind]);
+    }
+    status.events_dropped(dropped);
+    // Not of events.
+    cause("exposures.write_failed", counts.exposures_unsent);
     cause("packets.unacknowledged", counts.packets_unacknowledged);
     status.event_rate_hz(event_rate_hz_);
     status.lag_us(static_cast<double>(pacer_.lag_us()));
@@ -152,6 +200,7 @@ v1::SensorStatus SensorService::status() const {
 }
 
 void SensorService::tick() {
+    set_filters();
     const auto now_ns = clock_.steady_ns();
     const auto state = service_state();
     const bool due = now_ns - last_status_ns_ >= status_period_ns;
@@ -188,7 +237,8 @@ std::string SensorService::status_line() const {
             return "waiting for " + std::to_string(config_.wait_for_subscribers()) +
                    " subscriber(s) of " + topic::events;
         case EventPublisher::State::running:
-            return (pacer_.paused() ? "paused: " : "publishing ") + source_name(config_);
+            return (pacer_.paused() ? "paused: " : "publishing ") + source_name(config_) +
+                   (filters_->names().empty() ? "" : " through " + filters_->names());
         case EventPublisher::State::finished:
             return "finished " + source_name(config_);
         case EventPublisher::State::failed:
@@ -212,6 +262,7 @@ void SensorService::stop() {
     publisher_.reset();
     status_.reset();
     events_.reset();
+    exposures_.reset();
     participant_.reset();
 }
 

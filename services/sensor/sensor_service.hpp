@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <utility>
 
 #include "config.pb.h"
 #include "services/common/clock.hpp"
@@ -18,7 +21,8 @@ namespace pursuit::sensor {
 /// The DDS shell of the sensor: publishes the events of one source, its own status at 1 Hz and on
 /// change, and serves the calls of idl/sensor_requests.idl.
 ///
-/// Threads: as Service; calls come on the middleware's thread and only set the pacer.
+/// Threads: as Service; calls come on the middleware's thread and only set the pacer, or leave
+/// filters to be made by the next tick().
 class SensorService final : public Service {
  public:
     /// Opens the source; an error is one of the configuration.
@@ -32,9 +36,14 @@ class SensorService final : public Service {
     void stop() override;
 
  private:
-    SensorService(const disk::SensorConfig& config, std::unique_ptr<EventReader> source);
+    using Requests = RequestServer<v1::SensorRequest, v1::SensorReply>;
 
+    SensorService(const disk::SensorConfig& config, std::unique_ptr<FilterSwitch> filters,
+                  std::unique_ptr<EventReader> source);
+
+    void receive(const v1::SensorRequest& request, Requests& server);
     v1::SensorReply serve(const v1::SensorRequest& request);
+    void set_filters();
     v1::SensorStatus status() const;
     v1::ServiceState service_state() const;
 
@@ -43,12 +52,16 @@ class SensorService final : public Service {
     SystemClock clock_;
     Health health_;
     Pacer pacer_;
+    std::unique_ptr<FilterSwitch> filters_;
     std::unique_ptr<EventReader> source_;
     std::unique_ptr<Participant> participant_;
     std::unique_ptr<Writer<v1::EventPacket>> events_;
+    std::unique_ptr<Writer<v1::EventPacket>> exposures_;
     std::unique_ptr<Writer<v1::SensorStatus>> status_;
     std::unique_ptr<EventPublisher> publisher_;
-    std::unique_ptr<RequestServer<v1::SensorRequest, v1::SensorReply>> requests_;
+    std::unique_ptr<Requests> requests_;
+    std::mutex filter_requests_mutex_;
+    std::deque<std::pair<v1::RequestId, v1::SetFilters>> filter_requests_;  // for the next tick()
     std::atomic<bool> changed_{true};
     std::int64_t last_status_ns_ = 0;
     std::uint64_t events_at_last_status_ = 0;

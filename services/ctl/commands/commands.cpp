@@ -29,6 +29,8 @@ constexpr Command table[] = {
     {"sensor", "pause", "Stop the source's time", define_sensor_pause},
     {"sensor", "resume", "Let it go on", define_sensor_resume},
     {"sensor", "rate", "Play at another speed", define_sensor_rate},
+    {"sensor", "filters", "Set what its events go through", define_sensor_filters},
+    {"sensor", "filter-kinds", "List every filter and its parameters", define_sensor_filter_kinds},
     {"recorder", "pause", "Stop recording or replaying", define_recorder_pause},
     {"recorder", "resume", "Go on with it", define_recorder_resume},
     {"recorder", "new-file", "Close the file and go on in a new one", define_recorder_new_file},

@@ -20,6 +20,8 @@ Run define_status(CLI::App& app);
 Run define_sensor_pause(CLI::App& app);
 Run define_sensor_resume(CLI::App& app);
 Run define_sensor_rate(CLI::App& app);
+Run define_sensor_filters(CLI::App& app);
+Run define_sensor_filter_kinds(CLI::App& app);
 Run define_recorder_pause(CLI::App& app);
 Run define_recorder_resume(CLI::App& app);
 Run define_recorder_new_file(CLI::App& app);

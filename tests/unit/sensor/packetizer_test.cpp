@@ -160,5 +160,70 @@ TEST(Packetizer, loses_and_reorders_nothing_and_keeps_every_rule_on_random_strea
     }
 }
 
+std::vector<EventBatch> drained(Packetizer& packetizer) {
+    std::vector<EventBatch> batches;
+    while (const auto* batch = packetizer.next()) batches.push_back(*batch);
+    return batches;
+}
+
+TEST(Packetizer, time_that_passes_without_events_closes_the_batch_and_is_told_every_20_ms) {
+    Packetizer packetizer({4096, 1000});
+    const std::vector<Event> events{{100, 1, 1, 1}};
+    packetizer.push(events);
+    packetizer.advance(1099);
+    EXPECT_TRUE(drained(packetizer).empty());
+    packetizer.advance(1100);
+    const auto closed = drained(packetizer);
+    ASSERT_EQ(closed.size(), 1U);
+    EXPECT_EQ(closed[0].words.size(), 1U);
+    EXPECT_EQ(closed[0].complete_us, 1100);
+    packetizer.advance(60'099);
+    const auto silence = drained(packetizer);
+    ASSERT_EQ(silence.size(), 2U);
+    EXPECT_EQ(silence[0].base_time_us, 20'100);
+    EXPECT_EQ(silence[1].base_time_us, 40'100);
+    EXPECT_TRUE(silence[1].words.empty());
+    packetizer.advance(50'000);  // time does not go back
+    const std::vector<Event> next{{60'099, 2, 2, 0}};
+    packetizer.push(next);
+    packetizer.finish();
+    const auto rest = drained(packetizer);
+    ASSERT_EQ(rest.size(), 2U);
+    EXPECT_EQ(rest[0].base_time_us, 60'099);
+    EXPECT_EQ(rest[1].base_time_us, 60'100);
+    EXPECT_TRUE(rest[1].end_of_stream);
+}
+
+TEST(Packetizer, time_before_the_first_event_is_told_too_and_the_end_is_not_before_it) {
+    Packetizer packetizer({4096, 1000});
+    packetizer.advance(5'000'000);
+    packetizer.advance(5'030'000);
+    const auto silence = drained(packetizer);
+    ASSERT_EQ(silence.size(), 1U);
+    EXPECT_EQ(silence[0].base_time_us, 5'030'000);
+    packetizer.finish();
+    const auto end = drained(packetizer);
+    ASSERT_EQ(end.size(), 1U);
+    EXPECT_EQ(end[0].base_time_us, 5'030'000);
+    EXPECT_TRUE(end[0].end_of_stream);
+}
+
+TEST(Packetizer, a_flush_closes_what_is_there_and_nothing_else) {
+    Packetizer packetizer({4096, 1000});
+    packetizer.flush();
+    EXPECT_TRUE(drained(packetizer).empty());
+    const std::vector<Event> events{{100, 1, 1, 1}, {150, 1, 1, 0}};
+    packetizer.push(events);
+    EXPECT_TRUE(drained(packetizer).empty());
+    packetizer.flush();
+    const auto closed = drained(packetizer);
+    ASSERT_EQ(closed.size(), 1U);
+    EXPECT_EQ(events_of(closed[0]), events);
+    EXPECT_EQ(closed[0].complete_us, 150);
+    const std::vector<Event> next{{150, 2, 2, 1}};
+    packetizer.push(next);
+    EXPECT_TRUE(drained(packetizer).empty());
+}
+
 }  // namespace
 }  // namespace pursuit::sensor

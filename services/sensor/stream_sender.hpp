@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "config.pb.h"
+#include "services/common/health.hpp"
+#include "services/common/writer.hpp"
+#include "services/sensor/filter_switch.hpp"
+#include "services/sensor/pacer.hpp"
+#include "services/sensor/packetizer.hpp"
+
+namespace pursuit::sensor {
+
+/// What the publishing thread has done; running totals, read by the status.
+struct PublisherCounts {
+    std::atomic<std::uint64_t> events_in{0};
+    std::atomic<std::uint64_t> events_out{0};
+    std::atomic<std::uint64_t> exposures_out{0};
+    std::atomic<std::uint64_t> packets_out{0};
+    std::atomic<std::uint64_t> events_unsent{0};  ///< the middleware did not take their packet
+    std::atomic<std::uint64_t> exposures_unsent{0};
+    std::atomic<std::uint64_t> packets_unacknowledged{0};  ///< waited for in vain
+    std::atomic<std::uint64_t> events_overtaken{0};  ///< of a live source, before they were sent
+    FilterCounts filtered{};
+    std::atomic<std::uint64_t> stream_id{0};
+    std::atomic<std::int64_t> last_t_us{0};
+    std::atomic<std::uint32_t> size{0};  ///< width << 16 | height
+};
+
+/// Sends streams, one after another: filters their events, cuts them into packets, and writes these
+/// at their pace. Exposure measurements go the same way beside them, on a topic of their own.
+///
+///   begin() ──► send() | flush(), again and again ──► end() ──► begin() …
+///
+/// What a packet says was dropped is what was lost: by overload, by the rate control, and because
+/// the middleware did not take it; not what the other filters leave out on purpose.
+/// Threads: one; pacer, filters and counts are used from others too.
+class StreamSender {
+ public:
+    using HostTime = std::function<std::int64_t(std::int64_t t_us)>;
+
+    /// `host_time` gives CLOCK_REALTIME of a sensor time. Everything must outlive the sender.
+    StreamSender(const disk::SensorConfig& config, Writer<v1::EventPacket>& events,
+                 Writer<v1::EventPacket>& exposures, Pacer& pacer, Clock& clock, Health& health,
+                 FilterSwitch& filters, PublisherCounts& counts, HostTime host_time);
+
+    /// Whether a packet now and then waits for its readers: for sources that can wait.
+    void await_readers(bool wanted) { awaits_readers_ = wanted; }
+
+    /// A new stream begins; refused where the filters do not fit its size.
+    Result<void> begin(Geometry input);
+
+    /// Sends what came next, each in order of time; changes it in place. Nothing that follows is
+    /// earlier than `reached_us`. False when the pacer was stopped.
+    bool send(std::span<Event> events, std::span<Event> exposures, std::int64_t reached_us);
+
+    /// Sends what waits for its packet to be full.
+    bool flush();
+
+    /// Sends the rest, and that the stream has ended.
+    bool end();
+
+    bool in_stream() const { return events_packets_.has_value(); }
+
+ private:
+    void open(std::unique_ptr<FilterChain> chain);
+    bool send_slice(std::span<Event> events, std::span<Event> exposures, std::int64_t reached_us);
+    bool write_batches();
+    bool write(const EventBatch& batch, Writer<v1::EventPacket>& writer, std::uint64_t& sequence);
+    void await_acknowledgement();
+    std::uint64_t lost() const;
+
+    const disk::SensorConfig& config_;
+    Writer<v1::EventPacket>& events_;
+    Writer<v1::EventPacket>& exposures_;
+    Pacer& pacer_;
+    Clock& clock_;
+    Health& health_;
+    FilterSwitch& filters_;
+    PublisherCounts& counts_;
+    HostTime host_time_;
+    bool awaits_readers_ = true;
+
+    // Of the stream.
+    std::unique_ptr<FilterChain> chain_;
+    std::optional<Packetizer> events_packets_;
+    std::optional<Packetizer> exposures_packets_;  // from the first measurement on
+    std::uint64_t events_sequence_ = 0;
+    std::uint64_t exposures_sequence_ = 0;
+    std::uint64_t lost_before_ = 0;  // when the stream began
+
+    v1::EventPacket packet_;
+    std::uint64_t packets_ = 0;
+};
+
+}  // namespace pursuit::sensor
