@@ -91,6 +91,7 @@ bool EventPublisher::send_stream(EventReader& source, bool& source_failed) {
             source_failed = true;
         }
         if (!batch || batch->at_end) return sender_.end();
+        if (source.time_us() == 0 && batch->events + batch->exposures == 0) continue;
         if (!sender_.send(std::span(events).first(batch->events),
                           std::span(exposures).first(batch->exposures), source.time_us())) {
             return false;

@@ -28,7 +28,8 @@ class RangeReader final : public EventReader {
         done.count = cut(events.first(batch->events));
         done.exposures = cut(exposures.first(batch->exposures));
         done.skipped = source_->events_skipped() - events_skipped();
-        done.time_us = source_->time_us();
+        // Time before the range is none of its own: nobody is to wait for it.
+        done.time_us = source_->time_us() < range_.start_us ? 0 : source_->time_us();
         if (range_.end_us != 0 && done.time_us >= range_.end_us) {
             ended_ = true;
             done.time_us = range_.end_us;

@@ -118,6 +118,18 @@ TEST(RangeReader, cuts_exposures_as_it_cuts_events_and_ends_when_time_has_passed
     }
 }
 
+TEST(RangeReader, tells_no_time_before_it_has_begun) {
+    const auto reader = in_range(std::make_unique<Scripted>(some_steps()), {10, 0});
+    std::vector<Event> events(4);
+    std::vector<Event> exposures(4);
+    for (int before = 0; before < 3; ++before) {
+        EXPECT_FALSE(reader->read(events, exposures)->at_end);
+        EXPECT_EQ(reader->time_us(), 0);
+    }
+    EXPECT_EQ(reader->read(events, exposures)->events, 2U);
+    EXPECT_EQ(reader->time_us(), 12);
+}
+
 std::string text_of(std::span<const std::uint8_t> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
