@@ -13,6 +13,7 @@ constexpr Command table[] = {
     {"", "simulate", "Make the events of a scene, and their truth", define_simulate},
     {"", "info", "Tell what is in a recording of events", define_info},
     {"", "convert", "Write a recording of events in another format", define_convert},
+    {"", "grey", "Make a grey-level image from exposure measurements", define_grey},
     {"", "report", "Write a page about a recorded run", define_report},
     {"", "parameters", "List every parameter and preset by name", define_parameters},
     {"", "status", "Health, rates and losses of the services", define_status},

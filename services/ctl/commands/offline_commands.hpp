@@ -8,6 +8,7 @@ namespace pursuit::ctl {
 
 Run define_convert(CLI::App& app);
 Run define_evaluate(CLI::App& app);
+Run define_grey(CLI::App& app);
 Run define_info(CLI::App& app);
 Run define_model_extract(CLI::App& app);
 Run define_simulate(CLI::App& app);
