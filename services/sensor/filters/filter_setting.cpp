@@ -72,7 +72,9 @@ Result<FilterArguments> FilterArguments::of(const FilterSetting& setting,
                                             std::span<const FilterParameter> parameters) {
     FilterArguments arguments(parameters, setting.file);
     std::vector<bool> given(parameters.size());
-    for (const auto& [name, value] : setting.parameters) {
+    for (const auto& parameter : setting.parameters) {
+        const auto& name = parameter.name;
+        const double value = parameter.value;
         const auto found = std::find_if(parameters.begin(), parameters.end(),
                                         [&](const auto& known) { return known.name == name; });
         if (found == parameters.end()) return fail("parameter " + name + " is unknown");
