@@ -18,23 +18,25 @@ const eprosima::fastrtps::Duration_t farewell_time{1, 0};
 
 EventPublisher::EventPublisher(const disk::SensorConfig& config, Writer<v1::EventPacket>& events,
                                Writer<v1::EventPacket>& exposures, Pacer& pacer, Clock& clock,
-                               Health& health, FilterSwitch& filters)
+                               Health& health, FilterSwitch& filters,
+                               std::unique_ptr<EventReader> source)
     : config_(config),
       events_(events),
       pacer_(pacer),
       health_(health),
       filters_(filters),
+      source_(std::move(source)),
       sender_(config, events, exposures, pacer, clock, health, filters, counts_,
               [&pacer](std::int64_t t_us) { return pacer.host_time_ns(t_us); }) {}
 
-void EventPublisher::start(std::unique_ptr<EventReader> source) {
+void EventPublisher::start() {
     if (config_.wait_for_subscribers() == 0) state_ = State::running;
     // From here on requests for filters are judged by the size of the source's image.
-    if (const auto chain = filters_.begin(source->geometry())) {
+    if (const auto chain = filters_.begin(source_->geometry())) {
         const auto size = (*chain)->geometry();
         counts_.size = static_cast<std::uint32_t>(size.width) << 16 | size.height;
     }
-    thread_ = std::thread([this, source = std::move(source)]() mutable { run(std::move(source)); });
+    thread_ = std::thread([this] { run(); });
 }
 
 void EventPublisher::stop() {
@@ -43,12 +45,12 @@ void EventPublisher::stop() {
     if (thread_.joinable()) thread_.join();
 }
 
-void EventPublisher::run(std::unique_ptr<EventReader> source) {
+void EventPublisher::run() {
     if (!wait_for_subscribers()) return;
     state_ = State::running;
     for (;;) {
         bool source_failed = false;
-        if (!send_stream(*source, source_failed)) return;
+        if (!send_stream(*source_, source_failed)) return;
         events_.wait_acknowledged(farewell_time);
         if (source_failed) {
             state_ = State::failed;
@@ -61,10 +63,16 @@ void EventPublisher::run(std::unique_ptr<EventReader> source) {
             state_ = State::failed;
             return;
         }
-        source = std::move(*next);
+        source_ = std::move(*next);
         pacer_.restart();
     }
     state_ = State::finished;
+}
+
+std::string EventPublisher::remark() const {
+    return state() == State::waiting ? std::to_string(config_.wait_for_subscribers()) +
+                                           " subscriber(s) of " + topic::events
+                                     : "";
 }
 
 bool EventPublisher::wait_for_subscribers() {

@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "services/sensor/event_publisher.hpp"
 #include "services/sensor/filter_wire.hpp"
+#include "services/sensor/live_publisher.hpp"
 #include "services/sensor/source.hpp"
 
 namespace pursuit::sensor {
@@ -14,6 +16,8 @@ constexpr double slowest_rate = 0.001;
 constexpr double fastest_rate = 1000;
 
 std::string source_name(const disk::SensorConfig& config) {
+    if (!config.live().empty()) return config.live() == "-" ? "standard input" : config.live();
+    if (!config.driver().empty()) return "driver " + config.driver();
     return config.has_scene() ? "scene " + config.scene() : config.recording();
 }
 
@@ -33,24 +37,33 @@ Result<std::unique_ptr<Service>> SensorService::make(const disk::SensorConfig& c
     if (!settings) return tl::unexpected(settings.error());
     auto filters = FilterSwitch::make(std::move(*settings));
     if (!filters) return fail("field " + filters.error().message);
+    const auto live = is_live(config);
+    if (!live) return tl::unexpected(live.error());
+    std::unique_ptr<SensorService> service(new SensorService(config, std::move(*filters)));
+    if (*live) {
+        auto input = open_live(config);
+        if (!input) return tl::unexpected(input.error());
+        service->live_ = std::move(*input);
+        return service;
+    }
     auto source = open_source(config);
     if (!source) return tl::unexpected(source.error());
-    if (auto fits = (*filters)->begin((*source)->geometry()); !fits) {
+    if (auto fits = service->filters_->begin((*source)->geometry()); !fits) {
         return fail("field " + fits.error().message);
     }
-    return std::unique_ptr<Service>(
-        new SensorService(config, std::move(*filters), std::move(*source)));
+    service->source_ = std::move(*source);
+    return service;
 }
 
 SensorService::SensorService(const disk::SensorConfig& config,
-                             std::unique_ptr<FilterSwitch> filters,
-                             std::unique_ptr<EventReader> source)
+                             std::unique_ptr<FilterSwitch> filters)
     : config_(config),
       instance_(config.name().empty() ? "default" : config.name()),
       health_(config),
-      pacer_(clock_, config.rate()),
-      filters_(std::move(filters)),
-      source_(std::move(source)) {}
+      is_live_(*is_live(config)),
+      // A live source sets the pace itself.
+      pacer_(clock_, is_live_ ? 0 : config.rate()),
+      filters_(std::move(filters)) {}
 
 Result<void> SensorService::start() {
     auto participant =
@@ -66,14 +79,19 @@ Result<void> SensorService::start() {
     auto status = Writer<v1::SensorStatus>::create(*participant_, topic::sensor_status);
     if (!status) return tl::unexpected(status.error());
     status_ = std::move(*status);
-    publisher_ = std::make_unique<EventPublisher>(config_, *events_, *exposures_, pacer_, clock_,
-                                                  health_, *filters_);
+    if (is_live_) {
+        publisher_ = std::make_unique<LivePublisher>(config_, *events_, *exposures_, pacer_, clock_,
+                                                     health_, *filters_, std::move(live_));
+    } else {
+        publisher_ = std::make_unique<EventPublisher>(
+            config_, *events_, *exposures_, pacer_, clock_, health_, *filters_, std::move(source_));
+    }
     auto requests = Requests::create(
         *participant_, topic::sensor_request, topic::sensor_reply, instance_,
         [this](v1::SensorRequest& request, auto& server) { receive(request, server); });
     if (!requests) return tl::unexpected(requests.error());
     requests_ = std::move(*requests);
-    publisher_->start(std::move(source_));
+    publisher_->start();
     return {};
 }
 
@@ -114,7 +132,11 @@ v1::SensorReply SensorService::serve(const v1::SensorRequest& request) {
         case v1::SENSOR_SET_RATE: {
             reply.result().set_rate({});
             const double rate = request.call().set_rate().rate();
-            if (!std::isfinite(rate) || rate > fastest_rate || (rate != 0 && rate < slowest_rate)) {
+            if (is_live_) {
+                refuse(reply, v1::STATUS_UNSUPPORTED,
+                       "field set_rate.rate: a live source plays at its own pace");
+            } else if (!std::isfinite(rate) || rate > fastest_rate ||
+                       (rate != 0 && rate < slowest_rate)) {
                 refuse(reply, v1::STATUS_INVALID_ARGUMENT,
                        "field set_rate.rate is " + std::to_string(rate) +
                            ", must be 0 or 0.001 to 1000");
@@ -146,13 +168,13 @@ v1::SensorReply SensorService::serve(const v1::SensorRequest& request) {
 
 v1::ServiceState SensorService::service_state() const {
     switch (publisher_->state()) {
-        case EventPublisher::State::waiting:
+        case Publisher::State::waiting:
             return v1::SERVICE_WAITING;
-        case EventPublisher::State::running:
+        case Publisher::State::running:
             return pacer_.paused() ? v1::SERVICE_PAUSED : v1::SERVICE_RUNNING;
-        case EventPublisher::State::finished:
+        case Publisher::State::finished:
             return v1::SERVICE_FINISHED;
-        case EventPublisher::State::failed:
+        case Publisher::State::failed:
             break;
     }
     return v1::SERVICE_FAULT;
@@ -168,7 +190,7 @@ v1::SensorStatus SensorService::status() const {
     status.stream_id(counts.stream_id);
     status.width(static_cast<std::uint16_t>(counts.size >> 16));
     status.height(static_cast<std::uint16_t>(counts.size & 0xffff));
-    status.rate(pacer_.rate());
+    status.rate(is_live_ ? 1 : pacer_.rate());
     status.last_t_us(counts.last_t_us);
     status.events_in(counts.events_in);
     status.events_out(counts.events_out);
@@ -189,12 +211,15 @@ v1::SensorStatus SensorService::status() const {
     for (std::size_t kind = 0; kind < counts.filtered.size(); ++kind) {
         events("filter." + std::string(filter_kinds()[kind].name), counts.filtered[kind]);
     }
+    for (const auto& [name, count] : publisher_->losses()) events(name, count);
     status.events_dropped(dropped);
     // Not of events.
     cause("exposures.write_failed", counts.exposures_unsent);
+    cause("exposures.queue_full", counts.exposures_overtaken);
     cause("packets.unacknowledged", counts.packets_unacknowledged);
     status.event_rate_hz(event_rate_hz_);
     status.lag_us(static_cast<double>(pacer_.lag_us()));
+    status.host_clock_drift_ppm(publisher_->drift_ppm());
     status.subscribers(static_cast<std::uint32_t>(events_->matched()));
     return status;
 }
@@ -224,24 +249,25 @@ void SensorService::tick() {
 bool SensorService::finished() const {
     const auto state = publisher_->state();
     return config_.exit_at_end() &&
-           (state == EventPublisher::State::finished || state == EventPublisher::State::failed);
+           (state == Publisher::State::finished || state == Publisher::State::failed);
 }
 
 bool SensorService::failed() const {
-    return publisher_ != nullptr && publisher_->state() == EventPublisher::State::failed;
+    return publisher_ != nullptr && publisher_->state() == Publisher::State::failed;
 }
 
 std::string SensorService::status_line() const {
+    const auto remark = publisher_->remark();
     switch (publisher_->state()) {
-        case EventPublisher::State::waiting:
-            return "waiting for " + std::to_string(config_.wait_for_subscribers()) +
-                   " subscriber(s) of " + topic::events;
-        case EventPublisher::State::running:
+        case Publisher::State::waiting:
+            return "waiting for " + remark;
+        case Publisher::State::running:
             return (pacer_.paused() ? "paused: " : "publishing ") + source_name(config_) +
-                   (filters_->names().empty() ? "" : " through " + filters_->names());
-        case EventPublisher::State::finished:
+                   (filters_->names().empty() ? "" : " through " + filters_->names()) +
+                   (remark.empty() ? "" : ", " + remark);
+        case Publisher::State::finished:
             return "finished " + source_name(config_);
-        case EventPublisher::State::failed:
+        case Publisher::State::failed:
             break;
     }
     return "the source failed: " + source_name(config_);
@@ -251,8 +277,8 @@ void SensorService::stop() {
     if (publisher_) publisher_->stop();
     if (status_ && publisher_) {
         // The last word: what was sent in all.
-        health_.state(publisher_->state() == EventPublisher::State::failed ? v1::SERVICE_FAULT
-                                                                           : v1::SERVICE_FINISHED,
+        health_.state(publisher_->state() == Publisher::State::failed ? v1::SERVICE_FAULT
+                                                                      : v1::SERVICE_FINISHED,
                       status_line());
         auto sample = status();
         status_->write(sample);

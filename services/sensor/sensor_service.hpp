@@ -13,13 +13,15 @@
 #include "services/common/request_server.hpp"
 #include "services/common/service_main.hpp"
 #include "services/common/writer.hpp"
-#include "services/sensor/event_publisher.hpp"
+#include "services/sensor/formats/event_reader.hpp"
+#include "services/sensor/live/live_input.hpp"
 #include "services/sensor/pacer.hpp"
+#include "services/sensor/publisher.hpp"
 
 namespace pursuit::sensor {
 
-/// The DDS shell of the sensor: publishes the events of one source, its own status at 1 Hz and on
-/// change, and serves the calls of idl/sensor_requests.idl.
+/// The DDS shell of the sensor: publishes the events and exposure measurements of one source, its
+/// own status at 1 Hz and on change, and serves the calls of idl/sensor_requests.idl.
 ///
 /// Threads: as Service; calls come on the middleware's thread and only set the pacer, or leave
 /// filters to be made by the next tick().
@@ -38,8 +40,7 @@ class SensorService final : public Service {
  private:
     using Requests = RequestServer<v1::SensorRequest, v1::SensorReply>;
 
-    SensorService(const disk::SensorConfig& config, std::unique_ptr<FilterSwitch> filters,
-                  std::unique_ptr<EventReader> source);
+    SensorService(const disk::SensorConfig& config, std::unique_ptr<FilterSwitch> filters);
 
     void receive(const v1::SensorRequest& request, Requests& server);
     v1::SensorReply serve(const v1::SensorRequest& request);
@@ -51,14 +52,16 @@ class SensorService final : public Service {
     const std::string instance_;
     SystemClock clock_;
     Health health_;
+    const bool is_live_;
     Pacer pacer_;
     std::unique_ptr<FilterSwitch> filters_;
-    std::unique_ptr<EventReader> source_;
+    std::unique_ptr<EventReader> source_;  // until start(): one of the two
+    std::unique_ptr<LiveInput> live_;
     std::unique_ptr<Participant> participant_;
     std::unique_ptr<Writer<v1::EventPacket>> events_;
     std::unique_ptr<Writer<v1::EventPacket>> exposures_;
     std::unique_ptr<Writer<v1::SensorStatus>> status_;
-    std::unique_ptr<EventPublisher> publisher_;
+    std::unique_ptr<Publisher> publisher_;
     std::unique_ptr<Requests> requests_;
     std::mutex filter_requests_mutex_;
     std::deque<std::pair<v1::RequestId, v1::SetFilters>> filter_requests_;  // for the next tick()

@@ -1,17 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/sensor/source.hpp"
 
+#include <charconv>
+#include <optional>
 #include <utility>
 
 #include "services/sensor/formats/formats.hpp"
+#include "services/sensor/live/byte_stream_input.hpp"
+#include "services/sensor/live/driver_input.hpp"
 #include "services/sensor/range_reader.hpp"
 #include "services/sensor/scene_reader.hpp"
 
 namespace pursuit::sensor {
-Result<std::unique_ptr<EventReader>> open_source(const disk::SensorConfig& config) {
-    if (config.recording().empty() == config.scene().empty()) {
-        return fail("exactly one of recording and scene must be named");
+namespace {
+
+/// "640x480"; empty text: none.
+Result<std::optional<Geometry>> geometry_of(const std::string& text) {
+    if (text.empty()) return std::optional<Geometry>{};
+    Geometry geometry;
+    const auto* end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, geometry.width);
+    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+        const auto height = std::from_chars(width.ptr + 1, end, geometry.height);
+        if (height.ec == std::errc() && height.ptr == end && geometry.width > 0 &&
+            geometry.height > 0 && geometry.height <= 32768) {
+            return geometry;
+        }
     }
+    return fail("field live_geometry is \"" + text + "\", must be WxH, as 640x480");
+}
+
+}  // namespace
+
+Result<bool> is_live(const disk::SensorConfig& config) {
+    const int named = (config.recording().empty() ? 0 : 1) + (config.scene().empty() ? 0 : 1) +
+                      (config.live().empty() ? 0 : 1) + (config.driver().empty() ? 0 : 1);
+    if (named != 1) return fail("exactly one of recording, scene, live and driver must be named");
+    const bool live = !config.live().empty() || !config.driver().empty();
+    if (live && (config.loop() || config.start_s() != 0 || config.end_s() != 0)) {
+        return fail("fields loop, start_s and end_s go with a recording or a scene, not with live");
+    }
+    return live;
+}
+
+Result<std::unique_ptr<LiveInput>> open_live(const disk::SensorConfig& config) {
+    const std::chrono::milliseconds longest_wait(config.reconnect_ms());
+    if (!config.driver().empty()) {
+        auto driver = DriverInput::load(config.driver(), config.driver_argument(), longest_wait);
+        if (!driver) return tl::unexpected(driver.error());
+        return std::move(*driver);
+    }
+    auto address = parse_live_address(config.live());
+    if (!address) return fail("field live: " + address.error().message);
+    const auto geometry = geometry_of(config.live_geometry());
+    if (!geometry) return tl::unexpected(geometry.error());
+    std::string names;
+    for (const auto& format : formats()) {
+        if (format.name == config.live_format()) {
+            ReadOptions options{config.live_format(), *geometry, true};
+            return std::make_unique<ByteStreamInput>(std::move(*address), std::move(options),
+                                                     longest_wait);
+        }
+        names += (names.empty() ? "" : ", ") + std::string(format.name);
+    }
+    return fail("field live_format is \"" + config.live_format() + "\", must be one of " + names);
+}
+
+Result<std::unique_ptr<EventReader>> open_source(const disk::SensorConfig& config) {
+    const auto live = is_live(config);
+    if (!live) return tl::unexpected(live.error());
+    if (*live) return fail("a live source cannot be read as a recording");
     const auto range = range_of_seconds(config.start_s(), config.end_s());
     if (!range) return fail("start_s, end_s: " + range.error().message);
     auto source = config.scene().empty() ? open_events(config.recording())

@@ -57,7 +57,8 @@ void StreamSender::open(std::unique_ptr<FilterChain> chain) {
     exposures_packets_.reset();
     events_sequence_ = 0;
     exposures_sequence_ = 0;
-    lost_before_ = lost();
+    lost_events_before_ = lost_events();
+    lost_exposures_before_ = lost_exposures();
     // Two starts never share a nanosecond of wall time.
     counts_.stream_id = static_cast<std::uint64_t>(clock_.realtime_ns());
     const auto size = chain_->geometry();
@@ -152,7 +153,8 @@ bool StreamSender::write(const EventBatch& batch, Writer<v1::EventPacket>& write
     packet_.width(static_cast<std::uint16_t>(size >> 16));
     packet_.height(static_cast<std::uint16_t>(size & 0xffff));
     packet_.end_of_stream(batch.end_of_stream);
-    packet_.dropped_events(of_events ? lost() - lost_before_ : 0);
+    packet_.dropped_events(of_events ? lost_events() - lost_events_before_
+                                     : lost_exposures() - lost_exposures_before_);
     packet_.words(batch.words);
     const auto words = batch.words.size();
     if (writer.write(packet_)) {
@@ -170,7 +172,11 @@ bool StreamSender::write(const EventBatch& batch, Writer<v1::EventPacket>& write
     return true;
 }
 
-std::uint64_t StreamSender::lost() const {
+std::uint64_t StreamSender::lost_exposures() const {
+    return counts_.exposures_unsent + counts_.exposures_overtaken;
+}
+
+std::uint64_t StreamSender::lost_events() const {
     static const auto rate_control = *find_filter_kind("rate_control");
     return counts_.events_unsent + counts_.events_overtaken + counts_.filtered[rate_control];
 }

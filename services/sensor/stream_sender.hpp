@@ -27,6 +27,7 @@ struct PublisherCounts {
     std::atomic<std::uint64_t> exposures_unsent{0};
     std::atomic<std::uint64_t> packets_unacknowledged{0};  ///< waited for in vain
     std::atomic<std::uint64_t> events_overtaken{0};  ///< of a live source, before they were sent
+    std::atomic<std::uint64_t> exposures_overtaken{0};
     FilterCounts filtered{};
     std::atomic<std::uint64_t> stream_id{0};
     std::atomic<std::int64_t> last_t_us{0};
@@ -74,7 +75,8 @@ class StreamSender {
     bool write_batches();
     bool write(const EventBatch& batch, Writer<v1::EventPacket>& writer, std::uint64_t& sequence);
     void await_acknowledgement();
-    std::uint64_t lost() const;
+    std::uint64_t lost_events() const;
+    std::uint64_t lost_exposures() const;
 
     const disk::SensorConfig& config_;
     Writer<v1::EventPacket>& events_;
@@ -93,7 +95,8 @@ class StreamSender {
     std::optional<Packetizer> exposures_packets_;  // from the first measurement on
     std::uint64_t events_sequence_ = 0;
     std::uint64_t exposures_sequence_ = 0;
-    std::uint64_t lost_before_ = 0;  // when the stream began
+    std::uint64_t lost_events_before_ = 0;  // when the stream began
+    std::uint64_t lost_exposures_before_ = 0;
 
     v1::EventPacket packet_;
     std::uint64_t packets_ = 0;

@@ -5,6 +5,7 @@ The programs come from the folder in PURSUIT_BIN. Everything binds to loopback o
 """
 
 import fcntl
+import json
 import os
 import signal
 import socket
@@ -170,6 +171,13 @@ class SystemTest(unittest.TestCase):
         self.assertEqual(done.returncode, code,
                          f"pursuitctl {' '.join(map(str, arguments))}: {done.stdout}{done.stderr}")
         return done.stdout
+
+    def status_of(self, kind, name=None):
+        """The status of a service that is there: of the only one of its kind, or by its name."""
+        def found():
+            status = json.loads(self.ctl("status", "--json"))
+            return status[kind] if name is None else status[kind + "s"].get(name)
+        return self.eventually(found, what=f"a {kind} tells its status")
 
     def eventually(self, condition, timeout=10, what="the condition"):
         end = time.monotonic() + timeout

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Filters of a running sensor: configured, changed by request, refused, counted; and two sensors."""
 
-import json
 import subprocess
 import unittest
 
@@ -11,9 +10,8 @@ from pursuit_process import SystemTest, data, program
 
 class Filters(SystemTest):
     def status(self):
-        """Of one sensor and one tracker."""
-        status = json.loads(self.ctl("status", "--json"))
-        return status["sensor"], status["tracker"]
+        """Of the sensor and the tracker."""
+        return self.status_of("sensor"), self.status_of("tracker")
 
     def test_configured_by_name_drop_what_they_say_and_turn_the_image_for_all_who_read(self):
         events = data("car/car_atis_td.dat")
@@ -22,7 +20,7 @@ class Filters(SystemTest):
                               exit_at_end=False,
                               filter=["refractory period_us=2000", "polarity keep=1",
                                       "geometry rotate_deg=90"])
-        self.eventually(lambda: self.status()[0]["state"] == "FINISHED", what="the recording ends")
+        self.eventually(lambda: self.status_of("sensor")["state"] == "FINISHED", what="the recording ends")
         status, heard = self.status()
         dropped = status["dropped_by"]
         self.assertEqual((status["width"], status["height"]), (240, 304))
@@ -41,11 +39,11 @@ class Filters(SystemTest):
     def test_changed_by_request_take_effect_and_one_that_does_not_fit_changes_nothing(self):
         self.service("tracker")
         self.service("sensor", scene="overtake", rate=0.2, wait_for_subscribers=1)
-        rate = lambda: self.status()[0]["dropped_by"]["filter.polarity"]
+        rate = lambda: self.status_of("sensor")["dropped_by"]["filter.polarity"]
         self.assertEqual(rate(), 0)
         self.ctl("sensor", "filters", "polarity keep=1")
         self.eventually(lambda: rate() > 0, what="OFF events are dropped")
-        stream = self.status()[0]["stream_id"]
+        stream = self.status_of("sensor")["stream_id"]
         for bad, words in ((["refractory period_us=0"], ["period_us is 0", "1 to 1000000000"]),
                            (["polarity", "region_of_interest x_px=9999"], ["filter[1]", "x_px is 9999"]),
                            (["pixel_mask file=/nowhere.textproto"], ["/nowhere.textproto"])):
@@ -58,15 +56,15 @@ class Filters(SystemTest):
         status, _ = self.status()
         self.ctl("sensor", "filters", "geometry transpose=1")
         size = (status["height"], status["width"])
-        self.eventually(lambda: (self.status()[0]["width"], self.status()[0]["height"]) == size,
+        self.eventually(lambda: (self.status_of("sensor")["width"], self.status_of("sensor")["height"]) == size,
                         what="the image is transposed")
-        turned = self.status()[0]["stream_id"]
+        turned = self.status_of("sensor")["stream_id"]
         self.assertNotEqual(turned, stream)
-        self.eventually(lambda: self.status()[1]["stream_id"] == turned,
+        self.eventually(lambda: self.status_of("tracker")["stream_id"] == turned,
                         what="the tracker follows the new stream")
-        self.assertEqual(self.status()[1]["dropped_by"]["packets.other_geometry"], 0)
+        self.assertEqual(self.status_of("tracker")["dropped_by"]["packets.other_geometry"], 0)
         self.ctl("sensor", "filters", "--none")
-        self.eventually(lambda: self.status()[0]["width"] == status["width"],
+        self.eventually(lambda: self.status_of("sensor")["width"] == status["width"],
                         what="the image is as it was")
 
     def test_that_are_wrong_in_the_configuration_end_the_start_with_78_and_the_field(self):

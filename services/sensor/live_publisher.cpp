@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/sensor/live_publisher.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+
+namespace pursuit::sensor {
+namespace {
+
+constexpr std::chrono::milliseconds flush_after{5};
+constexpr std::int64_t noteworthy_silence_ns = 1'000'000'000;
+
+}  // namespace
+
+LivePublisher::LivePublisher(const disk::SensorConfig& config, Writer<v1::EventPacket>& events,
+                             Writer<v1::EventPacket>& exposures, Pacer& pacer, Clock& clock,
+                             Health& health, FilterSwitch& filters,
+                             std::unique_ptr<LiveInput> input)
+    : config_(config),
+      events_(events),
+      pacer_(pacer),
+      clock_(clock),
+      health_(health),
+      sink_(config.live_buffer_events(), clock),
+      input_(std::move(input)),
+      sender_(config, events, exposures, pacer, clock, health, filters, counts_,
+              [this](std::int64_t t_us) { return tie_ns_ + (t_us - tie_us_) * 1000; }) {
+    sender_.await_readers(false);
+}
+
+void LivePublisher::start() {
+    sending_ = std::thread([this] { send(); });
+}
+
+void LivePublisher::stop() {
+    stop_.raise();
+    pacer_.stop();
+    if (sending_.joinable()) sending_.join();
+    if (hearing_.joinable()) hearing_.join();
+}
+
+void LivePublisher::hear() {
+    input_->run(sink_, stop_);
+    sink_.queue().close();
+}
+
+void LivePublisher::send() {
+    if (!wait_for_subscribers()) return;
+    hearing_ = std::thread([this] { hear(); });
+    LiveItem item;
+    while (!sink_.queue().finished()) {
+        const bool came = sink_.queue().take(item, flush_after);
+        if (!(came ? send(item) : sender_.flush())) return;
+    }
+    if (!sender_.end()) return;
+    state_ = fault_.empty() ? State::finished : State::failed;
+}
+
+bool LivePublisher::send(LiveItem& item) {
+    counts_.events_in += item.dropped_events;
+    counts_.events_overtaken += item.dropped_events;
+    counts_.exposures_overtaken += item.dropped_exposures;
+    switch (item.kind) {
+        case LiveItem::Kind::begin: {
+            tie_us_ = 0;
+            tie_ns_ = clock_.realtime_ns();
+            if (auto ok = sender_.begin(item.geometry); !ok) {
+                health_.error(ok.error().message);
+                return true;
+            }
+            spdlog::info("a stream of {}x{} pixels begins", item.geometry.width,
+                         item.geometry.height);
+            state_ = State::running;
+            return true;
+        }
+        case LiveItem::Kind::events:
+            if (!sender_.in_stream()) {
+                counts_.events_in += item.events.size();
+                unfiltered_ += item.events.size();
+                return true;
+            }
+            tie_us_ = item.reached_us;
+            tie_ns_ = item.host_ns;
+            return sender_.send(item.events, item.exposures, item.reached_us);
+        case LiveItem::Kind::end:
+            fault_ = item.fault;
+            if (!fault_.empty()) health_.error(fault_);
+            state_ = State::waiting;
+            return sender_.end();
+    }
+    return true;
+}
+
+bool LivePublisher::wait_for_subscribers() {
+    const int wanted = static_cast<int>(config_.wait_for_subscribers());
+    sink_.waits_for(std::to_string(wanted) + " subscriber(s) of " + topic::events);
+    while (events_.matched() < wanted && !stop_.raised()) {
+        stop_.wait(-1, 0, std::chrono::milliseconds(5));
+    }
+    return !stop_.raised();
+}
+
+std::string LivePublisher::remark() const {
+    if (state() == State::waiting) return sink_.waits_for();
+    const auto silent_ns = sink_.silent_ns();
+    return silent_ns < noteworthy_silence_ns
+               ? ""
+               : "silent for " + std::to_string(silent_ns / 1'000'000'000) + " s";
+}
+
+std::vector<std::pair<std::string, std::uint64_t>> LivePublisher::losses() const {
+    return {{"live.queue_full", counts_.events_overtaken.load()},
+            {"live.unusable", sink_.unusable() + unfiltered_.load()},
+            {"live.lost_before", sink_.lost_before()}};
+}
+
+}  // namespace pursuit::sensor
