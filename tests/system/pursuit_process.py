@@ -147,7 +147,7 @@ class SystemTest(unittest.TestCase):
         self.processes.append(process)
         return process
 
-    def service(self, name, **fields):
+    def service(self, name, /, **fields):
         """A service with --set field=value; a list gives the field several times."""
         arguments = []
         fields = {"dds.domain": self.domain.domain, "dds.loopback_only": "true", **fields}

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "services/common/result.hpp"
 #include "services/sensor/live/driver.h"
 #include "services/sensor/live/live_input.hpp"
 
