@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/sensor/formats/es_reader.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -9,6 +10,8 @@
 
 namespace pursuit::sensor {
 namespace {
+
+constexpr std::ptrdiff_t event_bytes = es::event_bytes;
 
 template <class Kind>
 class EsReader final : public EventReader {
@@ -23,7 +26,7 @@ class EsReader final : public EventReader {
         Decoded done;
         auto ahead = bytes_.ahead(1);
         if (ahead && !ahead->empty() && !Kind::is_time(ahead->front())) {
-            ahead = records_ahead_of_event();
+            ahead = whole_event_ahead();
         }
         if (!ahead) {
             done.error = ahead.error();
@@ -38,8 +41,8 @@ class EsReader final : public EventReader {
 
  private:
     /// Waits for the whole of the event that is ahead.
-    Result<std::span<const std::uint8_t>> records_ahead_of_event() {
-        if (auto whole = records_ahead(bytes_, es::event_bytes, "an event"); !whole) return whole;
+    Result<std::span<const std::uint8_t>> whole_event_ahead() {
+        if (auto whole = records_ahead(bytes_, event_bytes, "an event"); !whole) return whole;
         return bytes_.at_hand();
     }
 
@@ -57,31 +60,40 @@ class EsReader final : public EventReader {
         const std::uint32_t width = geometry_.width;
         const std::uint32_t height = geometry_.height;
         auto t_us = t_us_;
-        while (at != end && event != events_end && exposure != exposures_end) {
-            const auto first = *at;
-            if (Kind::is_time(first)) {
-                t_us += Kind::time_us(first);
-                ++at;
-                continue;
+        bool is_good = true;
+        while (is_good) {
+            // So many times there is an event to read, and room for it, whatever it is.
+            auto safe =
+                std::min({(end - at) / event_bytes, events_end - event, exposures_end - exposure});
+            if (safe == 0) break;
+            for (; safe > 0; --safe) {
+                const auto first = *at;
+                if (Kind::is_time(first)) {
+                    t_us += Kind::time_us(first);
+                    ++at;
+                    continue;
+                }
+                const auto pixel = load<std::uint32_t>(at + 1);
+                const auto x = pixel & 0xffff;
+                const auto y = pixel >> 16;
+                is_good = (x < width) & (y < height);
+                if (!is_good) {
+                    done.error = error_at(bytes_.name(), bytes_.offset() + (at - bytes.data()),
+                                          outside(x, y, geometry_) + " (y upwards)");
+                    break;
+                }
+                t_us += Kind::delta_us(first);
+                // Which of the two it is cannot be foreseen: no branch.
+                const std::size_t measures = Kind::is_exposure(first);
+                store(measures == 1 ? *exposure : *event, t_us, x, height - 1 - y,
+                      Kind::polarity(first));
+                event += 1 - measures;
+                exposure += measures & wanted;
+                at += es::event_bytes;
             }
-            if (end - at < static_cast<std::ptrdiff_t>(es::event_bytes)) break;
-            const auto pixel = load<std::uint32_t>(at + 1);
-            const auto x = pixel & 0xffff;
-            const auto y = pixel >> 16;
-            if (x >= width || y >= height) {
-                done.error = error_at(bytes_.name(), bytes_.offset() + (at - bytes.data()),
-                                      outside(x, y, geometry_) + " (y upwards)");
-                break;
-            }
-            t_us += Kind::delta_us(first);
-            // Which of the two it is cannot be foreseen: no branch.
-            const std::size_t measures = Kind::is_exposure(first);
-            store(measures == 1 ? *exposure : *event, t_us, x, height - 1 - y,
-                  Kind::polarity(first));
-            event += 1 - measures;
-            exposure += measures & wanted;
-            at += es::event_bytes;
         }
+        // Behind the last whole event there may be bytes of time.
+        for (; is_good && at != end && Kind::is_time(*at); ++at) t_us += Kind::time_us(*at);
         t_us_ = t_us;
         done.count = static_cast<std::size_t>(event - events.data());
         done.exposures = wanted == 1 ? static_cast<std::size_t>(exposure - exposures.data()) : 0;
