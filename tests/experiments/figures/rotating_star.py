@@ -14,10 +14,10 @@ BEST_GRADIENT = Pursuit("gradient, best constants", preset="paper", parameters=(
 FRAMES = (
     FrameBased("rigid SVD, 50 µs", "procrustes", 50),
     FrameBased("rigid SVD, 50 µs, gated", "procrustes", 50, ("--gate", 6)),
-    FrameBased("rigid SVD, 50 µs, best", "procrustes", 50, ("--gate", 6, "--share", 0.2)),
+    FrameBased("rigid SVD, 50 µs, gated, damped", "procrustes", 50, ("--gate", 6, "--share", 0.2)),
     FrameBased("ICP, 200 µs", "icp", 200),
     FrameBased("ICP, 200 µs, gated", "icp", 200, ("--gate", 6)),
-    FrameBased("ICP, 200 µs, best", "icp", 200, ("--gate", 6, "--least-points", 20,
+    FrameBased("ICP, 200 µs, gated, damped", "icp", 200, ("--gate", 6, "--least-points", 20,
                                                  "--share", 0.5)),
 )
 DURATIONS_S = {670: 2, 1250: 1, 3000: 0.5}
