@@ -127,8 +127,8 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     filter_.predict(dt_s, std::min(dt_s, told_to_move_s), noise);
 
     // Silence means standing still; less so where what is hidden, and whose the events beside it
-    // are, is known by half only.
-    const double still_share = visible_share_ < 0.95 ? 0.3 : 0.6;
+    // are, is known by half only. (With 0.3 a car fell behind half way under a van.)
+    const double still_share = visible_share_ < 0.95 ? 0.1 : 0.6;
     if (own_px_s > 0 && told_px_s < still_share * own_px_s) {
         const double missed = dt_s * clock_.events_per_px(length_px) * own_px_s;
         const double f =

@@ -2,6 +2,7 @@
 #include "services/tracker/core/shape_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -16,7 +17,7 @@ constexpr std::size_t most_turns = 64 * 9;
 // Below: chance, or a part of the shape alone.
 constexpr double least_score = 0.4;
 // The best of very many poses fits noise better than chance, the more of it there is.
-constexpr double chance_margin = 0.7;
+constexpr double chance_margin = 0.9;
 
 // A pose of the coarse pass is at least this far from its surroundings.
 constexpr double least_z = 2;
@@ -24,8 +25,10 @@ constexpr double least_z = 2;
 // Poses nearer than this to each other are one.
 constexpr int same_cells = 6;
 
-constexpr double hit = 1.4;   // cells: the contour fired here
-constexpr double beside = 4;  // px off the contour, where only chance has fired
+constexpr std::size_t directions = 8;
+constexpr double sideways = 0.1;  // what moves along itself still fires a little
+constexpr double hit = 1.4;       // cells: the contour fired here
+constexpr double beside = 4;      // px off the contour, where only chance has fired
 
 }  // namespace
 
@@ -223,8 +226,6 @@ Pose ShapeSearch::fitted(Pose pose) const {
 }
 
 ShapeSearch::Fit ShapeSearch::fit_of(const Pose& pose) const {
-    double hits = 0;
-    double chance = 0;
     const auto has_fired = [&](const Eigen::Vector2d& p_px) {
         const Eigen::Vector2d p = p_px / map_->cell_px();
         return map_->distance(static_cast<int>(std::lround(p.x())),
@@ -232,13 +233,35 @@ ShapeSearch::Fit ShapeSearch::fit_of(const Pose& pose) const {
                    ? 1.0
                    : 0.0;
     };
+    // What moves along itself does not fire. Which way the shape moves is not known: any way, or
+    // all of the contour alike, as when it turns.
+    struct Sums {
+        double weight = 0;
+        double hits = 0;
+        double chance = 0;
+    };
+    std::array<Sums, directions + 1> ways{};
     for (const Sample& sample : fine_) {
         const Eigen::Vector2d p = pose.t_px + pose.a * sample.at_px;
-        const Eigen::Vector2d off = beside * (pose.a * sample.normal_px).normalized();
-        hits += has_fired(p) / fine_points;
-        chance += (has_fired(p + off) + has_fired(p - off)) / (2 * fine_points);
+        const Eigen::Vector2d n = (pose.a * sample.normal_px).normalized();
+        const double hits = has_fired(p);
+        const double chance = (has_fired(p + beside * n) + has_fired(p - beside * n)) / 2;
+        for (std::size_t i = 0; i <= directions; ++i) {
+            const double angle = static_cast<double>(i) * std::numbers::pi / directions;
+            const double across = std::abs(n.x() * std::cos(angle) + n.y() * std::sin(angle));
+            const double weight = i == directions ? 1 : sideways + across;
+            ways[i].weight += weight;
+            ways[i].hits += weight * hits;
+            ways[i].chance += weight * chance;
+        }
     }
-    return {(hits - chance) / std::max(1 - chance, 0.1), chance};
+    Fit best{-1, 0};
+    for (const Sums& way : ways) {
+        const double chance = way.chance / way.weight;
+        const double score = (way.hits / way.weight - chance) / std::max(1 - chance, 0.1);
+        if (score > best.score) best = {score, chance};
+    }
+    return best;
 }
 
 }  // namespace pursuit::tracker
