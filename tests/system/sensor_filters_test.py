@@ -21,6 +21,9 @@ class Filters(SystemTest):
                               filter=["refractory period_us=2000", "polarity keep=1",
                                       "geometry rotate_deg=90"])
         self.eventually(lambda: self.status_of("sensor")["state"] == "FINISHED", what="the recording ends")
+        # The last packets may still be on their way when the sensor has ended.
+        self.eventually(lambda: self.status_of("tracker")["events_in"] ==
+                        self.status_of("sensor")["events_out"], what="the tracker has heard all")
         status, heard = self.status()
         dropped = status["dropped_by"]
         self.assertEqual((status["width"], status["height"]), (240, 304))
