@@ -8,7 +8,6 @@
 namespace pursuit::tracker {
 namespace {
 
-constexpr std::size_t ring_events = 16'384;
 constexpr std::int64_t longest_us = 40'000;
 constexpr std::int64_t neighbour_us = 5'000;
 
@@ -122,7 +121,7 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
     std::fill(fired_us_.begin(), fired_us_.end(), std::int64_t{-1} << 40);
     std::size_t first = next_;
     for (std::size_t i = 0; i < kept; ++i) {
-        const Event& event = ring_[(next_ - 1 - i) % ring_.size()];
+        const Event& event = ring_[(next_ - 1 - i) % ring_events];
         if (t_us - event.t_us > longest_us) break;
         first = next_ - 1 - i;
     }
@@ -132,7 +131,7 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
     };
     // Forwards, as they came: supported by a neighbour that fired shortly before.
     for (std::size_t i = first; i < next_; ++i) {
-        const Event& event = ring_[i % ring_.size()];
+        const Event& event = ring_[i % ring_events];
         bool is_supported = false;
         for (int y = std::max(event.y - 1, 0); y <= std::min(event.y + 1, height - 1); ++y) {
             for (int x = std::max(event.x - 1, 0); x <= std::min(event.x + 1, width - 1); ++x) {

@@ -25,7 +25,7 @@ class Seeker {
     /// Every event.
     void see(const Event& event) {
         if (ring_.empty()) return;
-        ring_[next_ % ring_.size()] = event;
+        ring_[next_ % ring_events] = event;
         ++next_;
     }
 
@@ -35,6 +35,8 @@ class Seeker {
     }
 
  private:
+    static constexpr std::size_t ring_events = 16'384;
+
     void go_on(std::int64_t t_us, std::span<Track> tracks);
     void begin(std::int64_t t_us, std::span<Track> tracks);
     void end(std::int64_t t_us, Track& track);

@@ -96,6 +96,7 @@ void Track::restart(const RegisteredObject& object) {
     is_searching_ = object.start.search;
     is_acquiring_ = false;
     is_covered_ = is_adrift_ = false;
+    emerged_us_ = -1;
     acquired_us_ = never_us;
     trial_until_us_ = -1;
     visible_share_ = 1;
@@ -118,6 +119,7 @@ void Track::begin_stream() {
     tallied_us_ = -1;
     trial_until_us_ = -1;
     acquired_us_ = never_us;
+    emerged_us_ = -1;
     // How long the sensor was away is not known: the last good pose, at rest.
     const Pose last = is_covered_     ? covered_.pose
                       : is_acquiring_ ? good_[1].pose
@@ -161,6 +163,7 @@ void Track::acquire(std::int64_t t_us) {
     is_adrift_ = false;
     trial_until_us_ = -1;
     acquired_us_ = t_us;
+    emerged_us_ = -1;
     health_.restart(Health::good);
     cover_->restart();
     estimator_->restart(acquisition_->pose(), acquisition_->velocity());
@@ -214,6 +217,9 @@ Pose Track::pose() const {
 
 Approach Track::approach(const Event& event, std::int64_t since_same_us) {
     if (is_covered_) return {};
+    if (emerged_us_ >= 0 && seconds(event.t_us - emerged_us_) > tracker_.coast_s) {
+        give_up(event.t_us);
+    }
     if (is_searching_ && event.t_us >= trial_until_us_) {
         is_acquiring_ = false;
         return {};
@@ -244,6 +250,7 @@ bool Track::take(const Event& event, double weight) {
             lose_grip(event.t_us);
             return false;
         }
+        if (health_.is_settled() && health_.is_fair()) emerged_us_ = -1;
         // What is left in a quiet time is mostly noise: only what fits may move the pose.
         if (health_.is_quiet() && distance_px_ > parameters_.gate_px / 4) return false;
         if (!estimator_->take(weight)) return false;
@@ -258,12 +265,11 @@ bool Track::take(const Event& event, double weight) {
     return true;
 }
 
-void Track::deny(const Event& event) {
+void Track::deny() {
     // Counted like those taken: enough of them, and the object is not hidden there.
     if (!is_acquiring_ && piece_ >= 0 && distance_px_ < parameters_.gate_px / 4) {
         outline_.count(piece_, 1);
     }
-    static_cast<void>(event);
 }
 
 double Track::radius_px() const { return contour_.radius_px() * pose().a.norm(); }
@@ -333,10 +339,8 @@ void Track::see(std::int64_t t_us) {
     visible_share_ = whole > 0 ? seen / whole : 1;
     estimator_->set_visible_share(std::max(visible_share_, covered_share));
     if (!is_covered_ && can_be_hidden() && visible_share_ < covered_share) cover(t_us);
-    if (is_covered_ &&
-        (visible_share_ > uncovered_share || seconds(t_us - grip_lost_us_) > longest_covered_s)) {
-        uncover(t_us);
-    }
+    if (is_covered_ && visible_share_ > uncovered_share) uncover(t_us);
+    if (is_covered_ && seconds(t_us - grip_lost_us_) > longest_covered_s) give_up(t_us);
 }
 
 void Track::cover(std::int64_t t_us) {
@@ -350,26 +354,42 @@ void Track::cover(std::int64_t t_us) {
     against_since_us_ = -1;
 }
 
+// It never came out again: it is looked for as one that was lost.
+void Track::give_up(std::int64_t t_us) {
+    is_covered_ = false;
+    emerged_us_ = -1;
+    good_[0] = good_[1] = covered_;
+    const std::int64_t covered_since_us = grip_lost_us_;
+    lose_grip(t_us);
+    grip_lost_us_ = covered_since_us;
+}
+
+void Track::show_all(std::int64_t t_us) {
+    for (Outline::Part& part : outline_.parts()) part.is_hidden = false;
+    if (is_partly_hidden()) see(t_us);
+}
+
 void Track::uncover(std::int64_t t_us) {
     is_covered_ = false;
     health_.restart(Health::good);
     cover_->restart();
     const double way_px = seconds(t_us - grip_lost_us_) *
                           std::hypot(covered_.velocity.vx_px_s, covered_.velocity.vy_px_s);
+    emerged_us_ = t_us;
     estimator_->resume(t_us, covered_.pose, covered_.velocity, way_px);
     for (Coast& good : good_) good = {t_us, covered_.pose, covered_.velocity};
 }
 
 TrackState Track::state_at(std::int64_t t_us) const {
     if (is_searching_) return TrackState::searching;
-    if (is_covered_) return TrackState::occluded;
+    if (is_covered_ || (emerged_us_ >= 0 && !is_acquiring_)) return TrackState::occluded;
     if (!is_acquiring_) return TrackState::tracking;
     return seconds(t_us - grip_lost_us_) < tracker_.coast_s ? TrackState::occluded
                                                             : TrackState::lost;
 }
 
 double Track::confidence_at(std::int64_t t_us) const {
-    if (is_searching_ || is_acquiring_ || is_covered_) return 0;
+    if (is_searching_ || is_acquiring_ || is_covered_ || emerged_us_ >= 0) return 0;
     const double sharp = std::clamp((health_.sharpness() - 0.25) / 0.4, 0.0, 1.0);
     const double fit = std::min(sharp, std::clamp((cover_->share() - 0.4) / 0.2, 0.0, 1.0));
     // What was found again is believed when it has fitted for a while.

@@ -31,7 +31,9 @@ namespace pursuit::tracker {
 /// all are no mismatch: an object that stands still stays TRACKING, with falling confidence.
 ///
 /// An object that other objects cover, all but a fifth of what its motion shows of it, is OCCLUDED:
-/// it takes no events and goes on at its velocity of the last second until enough of it shows.
+/// it takes no events and goes on at its velocity of the last second until enough of it shows. Then
+/// its events must confirm it within coast_s: until they do it is OCCLUDED still, and after it
+/// LOST.
 class Track {
  public:
     Track(const RegisteredObject& object, const TrackerParameters& tracker);
@@ -53,7 +55,7 @@ class Track {
     bool take(const Event& event, double weight);
 
     /// An event that would have been the object's, were it not hidden there.
-    void deny(const Event& event);
+    void deny();
 
     // For Seeker.
     /// Where to look for the object, while its place is not known.
@@ -85,6 +87,8 @@ class Track {
     }
     /// The outline knows what is hidden.
     void see(std::int64_t t_us);
+    /// Nothing is to be taken for hidden any more.
+    void show_all(std::int64_t t_us);
 
     /// What is known at a grid time at or after the last event.
     [[nodiscard]] PoseRecord record(std::int64_t t_us) const;
@@ -106,6 +110,7 @@ class Track {
     void acquire(std::int64_t t_us);
     void cover(std::int64_t t_us);
     void uncover(std::int64_t t_us);
+    void give_up(std::int64_t t_us);
     [[nodiscard]] double across_px_s(const Outline::Part& part,
                                      const Eigen::Vector2d& arm_px) const;
     [[nodiscard]] Pose coasted(std::int64_t t_us) const;
@@ -147,6 +152,7 @@ class Track {
     std::int64_t acquisition_began_us_ = 0;
     std::int64_t trial_until_us_ = -1;  // of an offered pose
     std::int64_t acquired_us_ = never_us;
+    std::int64_t emerged_us_ = -1;  // came out from under another; not yet confirmed by events
     double distance_px_ = 0;
     std::int64_t last_event_t_us_ = 0;
     std::uint64_t events_used_ = 0;

@@ -114,7 +114,7 @@ class Tracker::Impl {
             const Approach near = track.approach(event, since_same_us);
             if (!near.is_within()) continue;
             if (tells_occlusion && occlusion.hides(i, event, tracks)) {
-                track.deny(event);
+                track.deny();
                 continue;
             }
             claims.push_back({track.object_id(), near.distance_px, near.likelihood, near.clutter});
@@ -312,6 +312,9 @@ CallResult<void> Tracker::set_parameters(std::string_view name,
     impl_->hold([impl = impl_.get(), objects = impl_->registry.objects(),
                  tracker = impl_->registry.settings().tracker] {
         impl->tells_occlusion = tracker.tells_occlusion >= 0.5;
+        if (!impl->tells_occlusion) {
+            for (Track& track : impl->tracks) track.show_all(impl->last_t_us);
+        }
         for (const RegisteredObject& object : objects) {
             if (Track* track = impl->find_track(object.object_id)) {
                 track->set_parameters(object.parameters, tracker);

@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A driver as docs/live-sources.md shows one, for a camera that sees one moving dot. */
+#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "services/sensor/live/driver.h"
-
-static void pause_ms(long ms) {
-    const struct timespec time = {ms / 1000, ms % 1000 * 1000000};
-    nanosleep(&time, NULL);
-}
 
 static int run_badly(const pursuit_sink* sink) {
     const pursuit_event events[] = {{50, 1, 1, 1, {0}},   {40, 1, 1, 1, {0}}, {55, 320, 1, 1, {0}},
@@ -28,7 +23,7 @@ static int run(const char* argument, const pursuit_sink* sink) {
         const pursuit_event event = {100 * i, (uint16_t)(i % 320), 120, 1, {0}};
         sink->events(sink->context, &event, 1, event.t_us);
     }
-    while (wanted == 0 && !sink->stopping(sink->context)) pause_ms(5);
+    while (wanted == 0 && !sink->stopping(sink->context)) sched_yield();
     sink->end(sink->context, NULL);
     return 0;
 }

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/occlusion.hpp"
+
+#include <gtest/gtest.h>
+
+#include "services/tracker/core/tracker.hpp"
+#include "tests/unit/tracker/core/scene.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+using test::outline_events;
+using test::Poses;
+using test::rms_px;
+
+constexpr Geometry geometry{304, 240};
+
+/// A small arrow that goes right at 60 px/s, and a wide box that stands over its way from t 1 s on.
+class HiddenArrow : public ::testing::Test {
+ protected:
+    static Shape box() {
+        return test::polygon("box", {{-70, -50}, {70, -50}, {70, 50}, {-70, 50}});
+    }
+    static Pose arrow_at(double t_us) { return pose_of(40 + 60e-6 * t_us, 120, 0); }
+    static Pose box_at(double t_us) { return pose_of(170 + 2 * std::sin(9e-6 * t_us), 120, 0); }
+
+    /// What is seen: the box whole, of the arrow what lies outside the box.
+    static std::vector<Event> seen(std::int64_t to_us) {
+        auto events = outline_events(box(), box_at, 0, to_us, 40, 0, geometry, 1);
+        for (const Event& event :
+             outline_events(test::arrow(), arrow_at, 0, to_us, 40, 0, geometry, 2)) {
+            const Eigen::Vector2d m =
+                Eigen::Vector2d(event.x, event.y) - box_at(static_cast<double>(event.t_us)).t_px;
+            if (std::abs(m.x()) > 70 || std::abs(m.y()) > 50) events.push_back(event);
+        }
+        std::stable_sort(events.begin(), events.end(),
+                         [](const Event& l, const Event& r) { return l.t_us < r.t_us; });
+        return events;
+    }
+
+    void add(const Shape& shape, const Pose& start, double depth_order) {
+        Registration registration;
+        registration.shape = shape;
+        registration.estimator = EstimatorKind::kalman;
+        registration.start.pose = start;
+        registration.parameters = {{"depth_order", depth_order}};
+        ASSERT_TRUE(tracker_.register_object(registration));
+    }
+    void begin(double depth_of_arrow, double depth_of_box) {
+        tracker_.begin_stream(geometry, 1);
+        add(test::arrow(), arrow_at(0), depth_of_arrow);
+        add(box(), box_at(0), depth_of_box);
+    }
+    /// Of the arrow, at this time.
+    PoseRecord at(std::int64_t t_us) const {
+        for (const auto& row : poses_.rows) {
+            if (row.record.object_id == 1 && row.record.t_us == t_us) return row.record;
+        }
+        ADD_FAILURE() << "no pose at " << t_us;
+        return {};
+    }
+
+    Tracker tracker_ = std::move(*Tracker::create({}));
+    Poses poses_;
+};
+
+TEST_F(HiddenArrow, is_occluded_while_it_is_covered_and_goes_on_where_it_would_be) {
+    for (const bool is_given : {false, true}) {
+        tracker_ = std::move(*Tracker::create({}));
+        poses_ = {};
+        begin(is_given ? 2 : 0, is_given ? 1 : 0);
+        tracker_.process(seen(4'200'000), poses_);
+        EXPECT_EQ(at(500'000).state, TrackState::tracking);
+        for (const std::int64_t t_us : {1'900'000, 2'300'000, 2'700'000}) {
+            EXPECT_EQ(at(t_us).state, TrackState::occluded) << is_given << " " << t_us;
+            EXPECT_EQ(at(t_us).confidence, 0) << is_given << " " << t_us;
+            EXPECT_LT(rms_px(test::arrow(), at(t_us).pose, arrow_at(static_cast<double>(t_us))), 6)
+                << is_given << " " << t_us;
+        }
+        EXPECT_EQ(at(4'100'000).state, TrackState::tracking) << is_given;
+        EXPECT_LT(rms_px(test::arrow(), at(4'100'000).pose, arrow_at(4.1e6)), 1) << is_given;
+    }
+}
+
+TEST_F(HiddenArrow, is_not_left_frozen_when_occlusion_is_no_more_told) {
+    begin(2, 1);
+    const auto events = seen(4'500'000);
+    const auto middle = std::find_if(events.begin(), events.end(),
+                                     [](const Event& event) { return event.t_us >= 2'300'000; });
+    tracker_.process({events.begin(), middle}, poses_);
+    ASSERT_EQ(at(2'280'000).state, TrackState::occluded);
+    const std::vector<NamedValue> off{{"tells_occlusion", 0}};
+    ASSERT_TRUE(tracker_.set_parameters("", off));
+    tracker_.process({middle, events.end()}, poses_);
+    // Nobody says any more that it is hidden: it is not there, and is found when it is.
+    EXPECT_EQ(at(2'400'000).state, TrackState::occluded);
+    EXPECT_EQ(at(3'300'000).state, TrackState::lost);
+    EXPECT_EQ(at(4'400'000).state, TrackState::tracking);
+    EXPECT_LT(rms_px(test::arrow(), at(4'400'000).pose, arrow_at(4.4e6)), 1);
+}
+
+TEST_F(HiddenArrow, is_lost_when_it_does_not_come_out_again) {
+    tracker_.begin_stream(geometry, 1);
+    add(test::arrow(), arrow_at(0), 2);
+    add(box(), box_at(0), 1);
+    // It stops under the box, where nobody sees it.
+    auto events = seen(2'400'000);
+    const auto alone = outline_events(box(), box_at, 2'400'000, 7'500'000, 40, 0, geometry, 3);
+    events.insert(events.end(), alone.begin(), alone.end());
+    tracker_.process(events, poses_);
+    EXPECT_EQ(poses_.rows.back().record.object_id, 2U);
+    EXPECT_EQ(at(7'400'000).state, TrackState::lost);
+}
+
+}  // namespace
+}  // namespace pursuit::tracker
