@@ -26,6 +26,8 @@ namespace {
 using namespace std::chrono_literals;
 using SteadyClock = std::chrono::steady_clock;
 
+constexpr auto settling = 250ms;
+
 struct Options {
     DdsOptions dds;
     std::string csv;
@@ -173,6 +175,10 @@ int poses(const Options& options) {
         }
         std::this_thread::sleep_for(2ms);
     }
+    // The writer learns of this reader later than this reader of the writer: only then is the head
+    // of the table written, by which others see that every pose from here on is heard.
+    const auto settled = SteadyClock::now() + settling;
+    while (SteadyClock::now() < settled && interrupted == 0) std::this_thread::sleep_for(2ms);
     auto output = Output::open(options);
     if (!output) return report(output.error());
     PoseCounter counter;
