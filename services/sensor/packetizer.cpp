@@ -9,7 +9,7 @@ Packetizer::Packetizer(Limits limits) : limits_(limits) {
     batch_.words.reserve(limits_.packet_events);
 }
 
-const EventBatch* Packetizer::next() {
+EventBatch* Packetizer::next() {
     while (!events_.empty()) {
         const Event& event = events_.front();
         if (open_) {
@@ -41,18 +41,18 @@ const EventBatch* Packetizer::next() {
     flushing_ = false;
     if (!finished_ || ended_) return nullptr;
     ended_ = true;
-    const auto* batch = empty(known_us_ ? std::max(last_t_us_ + 1, *known_us_) : 0);
+    auto* batch = empty(known_us_ ? std::max(last_t_us_ + 1, *known_us_) : 0);
     batch_.end_of_stream = true;
     return batch;
 }
 
-const EventBatch* Packetizer::close(std::int64_t complete_us) {
+EventBatch* Packetizer::close(std::int64_t complete_us) {
     open_ = false;
     batch_.complete_us = complete_us;
     return &batch_;
 }
 
-const EventBatch* Packetizer::empty(std::int64_t base_time_us) {
+EventBatch* Packetizer::empty(std::int64_t base_time_us) {
     batch_.words.clear();
     batch_.end_of_stream = false;
     batch_.base_time_us = base_time_us;

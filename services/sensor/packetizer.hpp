@@ -59,13 +59,14 @@ class Packetizer {
     /// No event follows.
     void finish() { finished_ = true; }
 
-    /// The next batch that is complete, valid until the following call; null when more events are
-    /// needed, or at the end.
-    const EventBatch* next();
+    /// The next batch that is complete, valid until the following call; its words may be swapped
+    /// for others, whose content is not used, to spare a copy. Null when more events are needed, or
+    /// at the end.
+    EventBatch* next();
 
  private:
-    const EventBatch* close(std::int64_t complete_us);
-    const EventBatch* empty(std::int64_t base_time_us);
+    EventBatch* close(std::int64_t complete_us);
+    EventBatch* empty(std::int64_t base_time_us);
 
     Limits limits_;
     std::span<const Event> events_;

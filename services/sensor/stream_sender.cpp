@@ -125,8 +125,8 @@ bool StreamSender::end() {
 
 /// Every batch that is complete, of both topics in the order of their time.
 bool StreamSender::write_batches() {
-    const EventBatch* event = events_packets_->next();
-    const EventBatch* exposure = exposures_packets_ ? exposures_packets_->next() : nullptr;
+    EventBatch* event = events_packets_->next();
+    EventBatch* exposure = exposures_packets_ ? exposures_packets_->next() : nullptr;
     while (event != nullptr || exposure != nullptr) {
         if (exposure == nullptr ||
             (event != nullptr && event->complete_us <= exposure->complete_us)) {
@@ -140,7 +140,7 @@ bool StreamSender::write_batches() {
     return true;
 }
 
-bool StreamSender::write(const EventBatch& batch, Writer<v1::EventPacket>& writer,
+bool StreamSender::write(EventBatch& batch, Writer<v1::EventPacket>& writer,
                          std::uint64_t& sequence) {
     if (!pacer_.wait_until(batch.complete_us)) return false;
     const bool of_events = &writer == &events_;
@@ -155,8 +155,8 @@ bool StreamSender::write(const EventBatch& batch, Writer<v1::EventPacket>& write
     packet_.end_of_stream(batch.end_of_stream);
     packet_.dropped_events(of_events ? lost_events() - lost_events_before_
                                      : lost_exposures() - lost_exposures_before_);
-    packet_.words(batch.words);
-    const auto words = batch.words.size();
+    packet_.words().swap(batch.words);
+    const auto words = packet_.words().size();
     if (writer.write(packet_)) {
         (of_events ? counts_.events_out : counts_.exposures_out) += words;
     } else {

@@ -73,7 +73,7 @@ class StreamSender {
     void open(std::unique_ptr<FilterChain> chain);
     bool send_slice(std::span<Event> events, std::span<Event> exposures, std::int64_t reached_us);
     bool write_batches();
-    bool write(const EventBatch& batch, Writer<v1::EventPacket>& writer, std::uint64_t& sequence);
+    bool write(EventBatch& batch, Writer<v1::EventPacket>& writer, std::uint64_t& sequence);
     void await_acknowledgement();
     std::uint64_t lost_events() const;
     std::uint64_t lost_exposures() const;

@@ -106,24 +106,6 @@ CallAnswer refusal(v1::StatusCode code, const std::string& message, v1::RemoteEx
     return answer;
 }
 
-bool is_change(v1::TrackerCallKind kind) {
-    switch (kind) {
-        case v1::TRACKER_REGISTER_MODEL:
-        case v1::TRACKER_UPDATE_MODEL:
-        case v1::TRACKER_REMOVE_MODEL:
-        case v1::TRACKER_SET_POSE:
-        case v1::TRACKER_SET_OCCLUSION_STRATEGY:
-        case v1::TRACKER_SET_PARAMETERS:
-            return true;
-        case v1::TRACKER_LIST_MODELS:
-        case v1::TRACKER_GET_MODEL:
-        case v1::TRACKER_GET_OCCLUSION_STRATEGY:
-        case v1::TRACKER_GET_STATUS:
-            return false;
-    }
-    return false;
-}
-
 CallAnswer dispatch(Tracker& tracker, const v1::TrackerCall& call,
                     const ServiceIdentity& identity) {
     switch (call._d()) {

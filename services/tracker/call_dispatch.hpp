@@ -30,9 +30,6 @@ struct CallAnswer {
 CallAnswer refusal(v1::StatusCode code, const std::string& message,
                    v1::RemoteException exception = v1::REMOTE_OK);
 
-/// Whether a call of this kind changes the tracker, so that it takes effect at a sensor time.
-bool is_change(v1::TrackerCallKind kind);
-
 /// Does one call now. A refusal changes nothing and names the field and its bound; whatever the
 /// network sent is answered. Not for TRACKER_GET_STATUS, which is not the tracker's to answer.
 CallAnswer dispatch(Tracker& tracker, const v1::TrackerCall& call, const ServiceIdentity& identity);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include "services/common/tracker_call_kinds.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
@@ -19,7 +21,7 @@ bool is_usable(const Event& event, Geometry geometry) {
 
 ScheduledTracker::Accepted ScheduledTracker::call(v1::TrackerCall& call, std::int64_t apply_at_us) {
     const std::int64_t now_us = tracker_.effective_time_us();
-    if (!is_change(call._d())) return {dispatch(tracker_, call, identity_), now_us};
+    if (!changes_tracker(call._d())) return {dispatch(tracker_, call, identity_), now_us};
     if (apply_at_us < 0 || apply_at_us >= max_t_us) {
         return {refusal(v1::STATUS_INVALID_ARGUMENT,
                         "apply_at_us: " + std::to_string(apply_at_us) + " is not within 0 to 2^53"),

@@ -7,6 +7,7 @@
 
 #include "services/common/request_id.hpp"
 #include "services/common/topics.hpp"
+#include "services/common/tracker_call_kinds.hpp"
 #include "services/recorder/mcap/facts.hpp"
 #include "services/recorder/mcap/reader.hpp"
 #include "services/recorder/packet_fields.hpp"
@@ -184,7 +185,7 @@ Pass::Exchange* Pass::exchange(const v1::RequestId& id) {
 
 void Pass::take_request(mcap::ByteSpan data) {
     auto request = decode<v1::TrackerRequest>(data);
-    if (!request || !changes_state(request->call()._d())) return;
+    if (!request || !changes_tracker(request->call()._d())) return;
     auto* found = exchange(request->header().request_id());
     if (found == nullptr || found->request || found->gathered) return;
     found->request = std::move(*request);
@@ -193,7 +194,7 @@ void Pass::take_request(mcap::ByteSpan data) {
 
 void Pass::take_reply(mcap::ByteSpan data) {
     auto reply = decode<v1::TrackerReply>(data);
-    if (!reply || !changes_state(reply->result()._d())) return;
+    if (!reply || !changes_tracker(reply->result()._d())) return;
     auto* found = exchange(reply->header().related_request_id());
     if (found == nullptr || found->reply || found->gathered) return;
     const auto sensor = sensor_of_.find(reply->header().instance_name().to_string());
@@ -312,24 +313,6 @@ ReplayPlan Pass::finish() {
 }
 
 }  // namespace
-
-bool changes_state(v1::TrackerCallKind kind) {
-    switch (kind) {
-        case v1::TRACKER_REGISTER_MODEL:
-        case v1::TRACKER_UPDATE_MODEL:
-        case v1::TRACKER_REMOVE_MODEL:
-        case v1::TRACKER_SET_POSE:
-        case v1::TRACKER_SET_OCCLUSION_STRATEGY:
-        case v1::TRACKER_SET_PARAMETERS:
-            return true;
-        case v1::TRACKER_LIST_MODELS:
-        case v1::TRACKER_GET_MODEL:
-        case v1::TRACKER_GET_OCCLUSION_STRATEGY:
-        case v1::TRACKER_GET_STATUS:
-            return false;
-    }
-    return false;
-}
 
 Result<ReplayPlan> make_plan(const std::string& path, const std::function<bool()>& stopped) {
     auto input = mcap::FileInput::open(path);

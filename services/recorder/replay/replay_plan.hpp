@@ -40,9 +40,6 @@ struct ReplayPlan {
     }
 };
 
-/// Whether a call changes the tracker's state.
-bool changes_state(v1::TrackerCallKind kind);
-
 /// Reads the whole recording, or until `stopped`. An error only where nothing of it can be read.
 Result<ReplayPlan> make_plan(const std::string& path, const std::function<bool()>& stopped);
 
