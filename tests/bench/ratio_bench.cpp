@@ -58,7 +58,7 @@ Contender contender(std::string name, const Case& of, std::vector<Event> events)
 /// Takes turns; gives the median cost of each as a counter, ns an event.
 std::vector<double> compete(benchmark::State& state, std::vector<Contender> contenders) {
     // What is learnt in the first moments is not what is measured.
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 2; ++i) {
         for (Contender& each : contenders) each.turn(false);
     }
     for (auto unused : state) {

@@ -6,7 +6,9 @@
 //     build/release/bench/tracker_bench [--benchmark_filter=used|inside|rejected|ratio]
 #include <benchmark/benchmark.h>
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "tests/bench/outline_scene.hpp"
 #include "tests/bench/ratio_bench.hpp"
@@ -14,13 +16,14 @@
 namespace pursuit::tracker::bench {
 namespace {
 
-void run(benchmark::State& state, const Case& of, Place place) {
+using Events = std::vector<Event>;
+
+void run(benchmark::State& state, const Case& of, Events events) {
     auto tracker = tracker_of(of);
     if (!tracker) return state.SkipWithError(tracker.error().message.c_str());
-    auto events = events_at(of, place);
     test::Poses poses;
     // What is learnt in the first moments is not what is measured.
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 2; ++i) {
         tracker->process(events, poses);
         next_period(events);
     }
@@ -40,9 +43,13 @@ void run(benchmark::State& state, const Case& of, Place place) {
 }
 
 void add(const std::string& name, const Case& of, Place place) {
-    benchmark::RegisterBenchmark(name.c_str(), [of, place](benchmark::State& s) {
-        run(s, of, place);
-    })->Unit(benchmark::kMillisecond);
+    // Made once: a benchmark is begun several times, each with a new tracker.
+    const auto events = std::make_shared<Events>();
+    const auto run_it = [=](benchmark::State& state) {
+        if (events->empty()) *events = events_at(of, place);
+        run(state, of, *events);
+    };
+    benchmark::RegisterBenchmark(name.c_str(), run_it)->Unit(benchmark::kMillisecond);
 }
 
 void add(const std::string& name, Case of) {

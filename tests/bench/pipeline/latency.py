@@ -5,6 +5,10 @@ import bisect
 
 TRACKING = 1
 
+# Up to here a stream has begun: the tracker lays out its models at the first event, and what came
+# meanwhile is caught up with.
+SETTLED_US = 1_000_000
+
 
 def percentile(values, share):
     """The smallest value that at least the given share of the values does not exceed."""
@@ -30,10 +34,19 @@ def paced_ns(pose, t_us):
     return pose["host_time_ns"] - (pose["t_us"] - t_us) * 1000
 
 
+def settled(poses):
+    return [pose for pose in poses if pose["t_us"] >= SETTLED_US]
+
+
 def newest_event_ns(poses):
     """Of each pose: from the instant of the newest event in it to its reception."""
     return [pose["received_ns"] - paced_ns(pose, pose["last_event_t_us"])
             for pose, _, _ in fresh_poses(poses)]
+
+
+def start_up_ns(poses):
+    """The longest that a pose took before the stream had settled."""
+    return max(newest_event_ns([pose for pose in poses if pose["t_us"] < SETTLED_US]))
 
 
 def every_event_ns(poses):

@@ -78,6 +78,9 @@ class Scene {
         for (std::size_t k = 0; k < objects.size(); ++k) motions_[k] = motion_of(objects[k], t_s);
     }
 
+    /// Between independent events, in units of its mean.
+    double waiting() { return -std::log(1 - uniform()); }
+
     Event event(std::int64_t t_us) {
         if (uniform() < share_on_objects) return on_contour(t_us);
         return {t_us, static_cast<std::uint16_t>(uniform() * geometry.width),
@@ -122,8 +125,10 @@ Result<void> write_events(Scene& scene, double rate_hz, double seconds, const st
     std::vector<Event> events;
     std::int64_t last_us = -1;
     const auto count = static_cast<std::int64_t>(rate_hz * seconds);
+    double t_s = 0;
     for (std::int64_t i = 0; i < count; ++i) {
-        const double t_s = static_cast<double>(i) / rate_hz;
+        // Each independent of the others: packets then begin at any time between two poses.
+        t_s += scene.waiting() / rate_hz;
         const auto t_us = static_cast<std::int64_t>(t_s * 1e6);
         if (t_us != last_us) scene.at(t_s);
         last_us = t_us;

@@ -16,10 +16,11 @@ import os
 import statistics
 import tempfile
 
-from latency import (every_event_ns, newest_event_ns, percentile, stages_ns, tracking_errors_px)
+from latency import (every_event_ns, newest_event_ns, percentile, settled, stages_ns, start_up_ns,
+                     tracking_errors_px)
 from pipeline_run import Pipeline, Stream, bare_hop_ns, lost_events
 
-PACKET_US = 1000
+# A packet is closed by so many events (pursuit-sensor's default) if not by its time.
 PACKET_EVENTS = 4096
 
 # A pose that comes later than this after its time at the end of a stream: the events have piled up.
@@ -42,8 +43,10 @@ class Bench:
 
     def pass_of(self, stream, estimator, packets=False):
         with Pipeline(self.folder, packets) as pipeline:
-            return pipeline.run(stream, estimator,
-                                {"packet_us": PACKET_US, "packet_events": PACKET_EVENTS})
+            return pipeline.run(
+                stream, estimator,
+                {"packet_us": self.options.packet_us, "packet_events": PACKET_EVENTS},
+                {"pose_rate_hz": self.options.pose_rate_hz})
 
     # Events a second.
 
@@ -101,7 +104,7 @@ class Bench:
     def latency(self):
         rate_hz = self.options.latency_rate
         stream = Stream(self.folder, rate_hz, self.options.latency_seconds)
-        events = min(PACKET_EVENTS, round(rate_hz * PACKET_US * 1e-6))
+        events = min(PACKET_EVENTS, round(rate_hz * self.options.packet_us * 1e-6))
         period_us = round(events / rate_hz * 1e6)
         hops, results, split = [], {}, {}
         for _ in range(self.options.repeats):
@@ -120,11 +123,14 @@ class Bench:
             for name, latencies in (("newest event of each pose", newest_event_ns),
                                     ("every event to the first pose that knows it",
                                      every_event_ns)):
-                values = [latencies(each["poses"]) for each in passes]
+                values = [latencies(settled(each["poses"])) for each in passes]
                 print(f"{estimator}: {name} "
                       f"| {us(statistics.median(percentile(v, 0.5) for v in values))} "
                       f"| {us(statistics.median(percentile(v, 0.99) for v in values))} "
                       f"| {us(median_bound_ns)} | {period_us + 1000}")
+            start_ups = [start_up_ns(each["poses"]) for each in passes]
+            print(f"{estimator}: the most in the first second | {us(statistics.median(start_ups))} "
+                  "| | |")
         print(f"\nmedians of {self.options.repeats} passes; lost: "
               f"{sum(lost_events(each) for each in sum(results.values(), []))}")
         self.print_stages(split)
@@ -136,10 +142,11 @@ class Bench:
         for estimator, passes in split.items():
             stages = {}
             for each in passes:
-                found = stages_ns(each["poses"], each["packets"], PACKET_US, PACKET_EVENTS)
+                found = stages_ns(settled(each["poses"]), each["packets"],
+                                  self.options.packet_us, PACKET_EVENTS)
                 for name, values in found.items():
                     stages.setdefault(name, []).extend(values)
-                stages.setdefault("all of it", []).extend(newest_event_ns(each["poses"]))
+                stages.setdefault("all of it", []).extend(newest_event_ns(settled(each["poses"])))
             for name, values in stages.items():
                 print(f"{estimator}: {name} | {us(percentile(values, 0.5))} "
                       f"| {us(percentile(values, 0.99))}")
@@ -165,6 +172,8 @@ def main():
     parser.add_argument("--seconds", type=float, default=3, help="of each stream of the search")
     parser.add_argument("--latency-rate", type=float, default=1e6, help="events/s")
     parser.add_argument("--latency-seconds", type=float, default=8)
+    parser.add_argument("--packet-us", type=int, default=1000, help="a packet's time")
+    parser.add_argument("--pose-rate-hz", type=float, default=1000, help="of each object")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="pursuit-bench-") as folder:
         good = getattr(Bench(folder, options), options.what)()
