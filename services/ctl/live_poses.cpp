@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-std::string state_name(v1::TrackState state) {
+std::string track_state_name(v1::TrackState state) {
     return std::string(tracker::to_string(static_cast<tracker::TrackState>(state)));
 }
 
@@ -58,7 +58,7 @@ std::string pose_json(const v1::ObjectPose& pose) {
         .add("host_time_ns", pose.host_time_ns())
         .add("model", pose.model().to_string())
         .add("transform", tracker::to_string(transform))
-        .add("state", state_name(pose.state()))
+        .add("state", track_state_name(pose.state()))
         .add("x_px", pose.x_px())
         .add("y_px", pose.y_px())
         .add("a00", pose.a00())
@@ -118,13 +118,13 @@ std::string PoseTable::text() {
     constexpr double degrees_per_rad = 57.29577951308232;
     for (const auto& [id, entry] : objects_) {
         const auto& pose = entry.pose;
-        std::snprintf(line, sizeof line,
-                      "%-16.16s %4u %-9s %10.3f %9.2f %9.2f %8.1f %7.3f %9.1f %9.1f %6.2f %8llu\n",
-                      pose.model().c_str(), pose.object_id(), state_name(pose.state()).c_str(),
-                      static_cast<double>(pose.t_us()) * 1e-6, pose.x_px(), pose.y_px(),
-                      pose.theta_rad() * degrees_per_rad, pose.scale_x(), pose.vx_px_s(),
-                      pose.vy_px_s(), static_cast<double>(pose.confidence()),
-                      static_cast<unsigned long long>(entry.count));
+        std::snprintf(
+            line, sizeof line,
+            "%-16.16s %4u %-9s %10.3f %9.2f %9.2f %8.1f %7.3f %9.1f %9.1f %6.2f %8llu\n",
+            pose.model().c_str(), pose.object_id(), track_state_name(pose.state()).c_str(),
+            static_cast<double>(pose.t_us()) * 1e-6, pose.x_px(), pose.y_px(),
+            pose.theta_rad() * degrees_per_rad, pose.scale_x(), pose.vx_px_s(), pose.vy_px_s(),
+            static_cast<double>(pose.confidence()), static_cast<unsigned long long>(entry.count));
         text += line;
     }
     lines_drawn_ = objects_.size() + 1;

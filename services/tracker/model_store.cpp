@@ -67,7 +67,7 @@ void put_values(Repeated* stored, const std::vector<NamedValue>& values) {
 }
 
 template <class Repeated>
-std::vector<NamedValue> values_of(const Repeated& stored) {
+std::vector<NamedValue> stored_values(const Repeated& stored) {
     std::vector<NamedValue> values;
     for (const auto& value : stored) values.push_back({value.name(), value.value()});
     return values;
@@ -122,7 +122,7 @@ Result<StoredObject> object_of(const disk::StoredObject& stored) {
     const auto estimator = parse_estimator(stored.estimator());
     if (!estimator) return fail(where + "estimator: unknown \"" + stored.estimator() + "\"");
     object.estimator = *estimator;
-    for (const auto& value : values_of(stored.parameter())) {
+    for (const auto& value : stored_values(stored.parameter())) {
         const auto good = set(object.parameters, std::span(&value, 1));
         // A parameter that this version does not know any more is no damage.
         if (!good && good.error().status != CallStatus::not_found) {
@@ -155,8 +155,8 @@ Result<StoredState> state_of(const disk::Store& store) {
             return fail("strategy: unknown \"" + store.strategy() + "\"");
         }
     }
-    state.settings.strategy_parameters = values_of(store.strategy_parameter());
-    state.settings.parameters = values_of(store.parameter());
+    state.settings.strategy_parameters = stored_values(store.strategy_parameter());
+    state.settings.parameters = stored_values(store.parameter());
     if (store.object_size() > static_cast<int>(max_stored_objects)) {
         return fail("object: " + std::to_string(store.object_size()) + " entries, at most " +
                     std::to_string(max_stored_objects));

@@ -6,7 +6,7 @@
 namespace pursuit::ctl {
 namespace {
 
-constexpr Command table[] = {
+constexpr Command all_commands[] = {
     {"model", "extract", "Make a model from what moved in a recording", define_model_extract},
     {"", "track", "Follow models through a recording, without DDS", define_track},
     {"", "evaluate", "Score poses against the truth", define_evaluate},
@@ -40,6 +40,6 @@ constexpr Command table[] = {
 
 }  // namespace
 
-std::span<const Command> commands() { return table; }
+std::span<const Command> commands() { return all_commands; }
 
 }  // namespace pursuit::ctl

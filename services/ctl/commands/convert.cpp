@@ -16,7 +16,7 @@
 namespace pursuit::ctl {
 namespace {
 
-struct Options {
+struct ConvertOptions {
     std::string from;
     std::string to;
     std::string format;
@@ -59,7 +59,7 @@ Result<void> copy(sensor::EventReader& recording, sensor::EventWriter& writer, b
     }
 }
 
-int convert(const Options& options) {
+int convert(const ConvertOptions& options) {
     const auto geometry = geometry_of(options.geometry);
     if (!geometry) return report(geometry.error());
     const auto range = sensor::range_of_seconds(options.from_s, options.to_s);
@@ -87,7 +87,7 @@ int convert(const Options& options) {
 }  // namespace
 
 Run define_convert(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ConvertOptions>();
     app.add_option("FROM", options->from, "Recording of events")->required();
     app.add_option("TO", options->to, "File to write; its extension is its format")->required();
     app.add_option("--format", options->format, format_help());

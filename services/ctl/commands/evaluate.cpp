@@ -15,7 +15,7 @@
 namespace pursuit::ctl {
 namespace {
 
-struct Options {
+struct EvaluateOptions {
     std::string poses;
     std::string truth;
     std::vector<std::string> models;
@@ -71,7 +71,7 @@ Result<std::vector<Event>> read_events(const std::string& path) {
     }
 }
 
-Result<std::vector<Score>> score(Options& options) {
+Result<std::vector<Score>> score(EvaluateOptions& options) {
     const auto models = read_models(options.models);
     if (!models) return tl::unexpected(models.error());
     const auto symmetry = read_symmetry(options.symmetry);
@@ -95,7 +95,7 @@ Result<std::vector<Score>> score(Options& options) {
     return scores;
 }
 
-int run(Options& options) {
+int evaluate(EvaluateOptions& options) {
     const auto scores = score(options);
     if (!scores) return report(scores.error());
     const auto text = options.json ? to_json(*scores) : to_table(*scores);
@@ -106,7 +106,7 @@ int run(Options& options) {
 }  // namespace
 
 Run define_evaluate(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<EvaluateOptions>();
     auto& settings = options->settings;
     app.add_option("--poses", options->poses, "Table of poses, CSV")->required();
     app.add_option("--truth", options->truth, "Table of truth, CSV")->required();
@@ -124,7 +124,7 @@ Run define_evaluate(CLI::App& app) {
                    "Half width of the slopes, seconds; 0: no speed error")
         ->capture_default_str();
     app.add_flag("--json", options->json, "JSON instead of a table");
-    return [options] { return run(*options); };
+    return [options] { return evaluate(*options); };
 }
 
 }  // namespace pursuit::ctl

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double longest_s = 9e12;  // as us within 63 bits
 
-struct Options {
+struct GreyOptions {
     std::string events;
     std::string output;
     std::string format;
@@ -25,7 +25,7 @@ struct Options {
     std::uint32_t sensor_id = 0;
 };
 
-int grey(const Options& options) {
+int grey(const GreyOptions& options) {
     if (!(options.at_s >= 0 && options.at_s <= longest_s)) {
         return report({"--at: must be 0 to 9e12 s"});
     }
@@ -53,7 +53,7 @@ int grey(const Options& options) {
 }  // namespace
 
 Run define_grey(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<GreyOptions>();
     app.add_option("--events", options->events, "Recording with exposure measurements: ES, MCAP")
         ->required();
     app.add_option("--at", options->at_s, "Seconds of the recording's time")->required();

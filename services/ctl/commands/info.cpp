@@ -13,7 +13,7 @@
 namespace pursuit::ctl {
 namespace {
 
-struct Options {
+struct InfoOptions {
     std::string events;
     std::string format;
     std::string geometry;
@@ -53,7 +53,7 @@ void print(const RecordingFacts& facts) {
     }
 }
 
-int info(const Options& options) {
+int info(const InfoOptions& options) {
     if (is_mcap(options.events)) return print_mcap_info(options.events, options.full, options.json);
     if (options.json || options.full) {
         return report({options.events + ": no MCAP recording; --json and --full are for those"});
@@ -70,7 +70,7 @@ int info(const Options& options) {
 }  // namespace
 
 Run define_info(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<InfoOptions>();
     app.add_option("FILE", options->events, "Recording: of events, or of topics (MCAP)")
         ->required();
     app.add_option("--format", options->format, format_help());

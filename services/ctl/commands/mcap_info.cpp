@@ -8,30 +8,13 @@
 #include <fstream>
 
 #include "services/ctl/commands/report.hpp"
+#include "services/ctl/json_text.hpp"
 #include "services/recorder/mcap/info.hpp"
 
 namespace pursuit::ctl {
 namespace {
 
 namespace mcap = recorder::mcap;
-
-/// A JSON string; octets beyond ASCII are taken to be UTF-8.
-std::string json_string(std::string_view text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') {
-            out += '\\';
-            out += c;
-        } else if (static_cast<unsigned char>(c) < 0x20) {
-            char escape[8];
-            std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned char>(c));
-            out += escape;
-        } else {
-            out += c;
-        }
-    }
-    return out + "\"";
-}
 
 void print_json(const mcap::Info& info) {
     std::printf("{\"file\": %s, \"file_bytes\": %" PRIu64 ", \"condition\": %s,\n",

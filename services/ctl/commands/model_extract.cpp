@@ -15,7 +15,7 @@
 namespace pursuit::ctl {
 namespace {
 
-struct Options {
+struct ExtractOptions {
     Extraction task;
     std::string events;
     std::string output;
@@ -26,12 +26,12 @@ struct Options {
 };
 
 /// "car" of "models/car.model.textproto".
-std::string name_of(const std::string& path) {
+std::string stem_of(const std::string& path) {
     const auto file = std::filesystem::path(path).filename().string();
     return file.substr(0, file.find('.'));
 }
 
-int extract(Options& options) {
+int extract(ExtractOptions& options) {
     auto& task = options.task;
     const auto range = sensor::range_of_seconds(options.at_s, 0);
     if (!range) return report(range.error());
@@ -46,7 +46,7 @@ int extract(Options& options) {
         task.width_px = options.roi[2];
         task.height_px = options.roi[3];
     }
-    if (task.name.empty()) task.name = name_of(options.output);
+    if (task.name.empty()) task.name = stem_of(options.output);
 
     const auto geometry = geometry_of(options.geometry);
     if (!geometry) return report(geometry.error());
@@ -69,7 +69,7 @@ int extract(Options& options) {
 }  // namespace
 
 Run define_model_extract(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ExtractOptions>();
     app.add_option("--events", options->events, "Recording of events")->required();
     app.add_option("--at", options->at_s, "Begin of the window, seconds of the recording's time")
         ->required();

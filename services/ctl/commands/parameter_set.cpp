@@ -12,14 +12,14 @@
 namespace pursuit::ctl {
 namespace {
 
-struct Options {
+struct ParameterSetOptions {
     DdsOptions dds;
     std::string model;
     std::vector<std::string> settings;
     std::int64_t apply_at_us = 0;
 };
 
-int parameter_set(const Options& options) {
+int parameter_set(const ParameterSetOptions& options) {
     auto values = named_values(options.settings);
     if (!values) return report(values.error());
     v1::SetParameters call;
@@ -37,7 +37,7 @@ int parameter_set(const Options& options) {
 }  // namespace
 
 Run define_parameter_set(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ParameterSetOptions>();
     add_dds_options(app, options->dds);
     app.add_option("--model", options->model, "Of this object; without it the tracker's");
     app.add_option("settings", options->settings, "name=value")->required();

@@ -21,7 +21,7 @@ void print(const char* title, std::span<const tracker::Parameter<Parameters>> ta
     }
 }
 
-int run() {
+int print_parameters() {
     std::printf("name, default, range and unit, meaning\n\n");
     print("of an object (model register --set, parameter set):", tracker::object_parameter_table());
     print("\nof the tracker (parameter set):", tracker::tracker_parameter_table());
@@ -37,6 +37,6 @@ int run() {
 
 }  // namespace
 
-Run define_parameters(CLI::App&) { return run; }
+Run define_parameters(CLI::App&) { return print_parameters; }
 
 }  // namespace pursuit::ctl

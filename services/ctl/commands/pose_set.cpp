@@ -12,14 +12,14 @@
 namespace pursuit::ctl {
 namespace {
 
-struct Options {
+struct PoseSetOptions {
     DdsOptions dds;
     std::string pose;
     bool search = false;
     std::int64_t apply_at_us = 0;
 };
 
-int pose_set(const Options& options) {
+int pose_set(const PoseSetOptions& options) {
     const auto argument = tracker::parse_model_argument(options.pose);
     if (!argument) return report(argument.error());
     if (argument->start.has_value() == options.search) {
@@ -44,7 +44,7 @@ int pose_set(const Options& options) {
 }  // namespace
 
 Run define_pose_set(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<PoseSetOptions>();
     add_dds_options(app, options->dds);
     app.add_option("pose", options->pose, "NAME@x,y,theta[,scale] of a registered model, px, rad")
         ->required();

@@ -28,7 +28,7 @@ using SteadyClock = std::chrono::steady_clock;
 
 constexpr auto settling = 250ms;
 
-struct Options {
+struct PosesOptions {
     DdsOptions dds;
     std::string csv;
     bool json = false;
@@ -85,7 +85,7 @@ class Inbox {
 /// Where poses are written to, one way or another. Every write is checked.
 class Output {
  public:
-    static Result<Output> open(const Options& options) {
+    static Result<Output> open(const PosesOptions& options) {
         Output output(options);
         if (!options.to_csv) return output;
         if (!options.csv.empty()) {
@@ -129,20 +129,20 @@ class Output {
     [[nodiscard]] bool good() const { return good_; }
 
  private:
-    explicit Output(const Options& options)
+    explicit Output(const PosesOptions& options)
         : options_(options), table_(::isatty(STDOUT_FILENO) == 1) {}
     void write(std::string_view text) {
         good_ = std::fwrite(text.data(), 1, text.size(), file_) == text.size() && good_;
     }
 
-    const Options& options_;
+    const PosesOptions& options_;
     std::FILE* file_ = stdout;
     bool good_ = true;
     PoseTable table_;
     std::string line_;
 };
 
-int finish(const Options& options, const PoseCounter& counter, std::uint64_t dropped,
+int finish(const PosesOptions& options, const PoseCounter& counter, std::uint64_t dropped,
            std::uint64_t shown, bool good) {
     std::fprintf(stderr, "%llu poses; %llu gaps, %llu poses missed\n",
                  static_cast<unsigned long long>(counter.poses()),
@@ -158,7 +158,7 @@ int finish(const Options& options, const PoseCounter& counter, std::uint64_t dro
     return options.strict && !whole ? report(Error{"poses were missed"}) : exit_success;
 }
 
-int poses(const Options& options) {
+int poses(const PosesOptions& options) {
     catch_interrupt();
     auto participant = join(options.dds);
     if (!participant) return report(participant.error());
@@ -203,7 +203,7 @@ int poses(const Options& options) {
 }  // namespace
 
 Run define_poses(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<PosesOptions>();
     add_dds_options(app, options->dds);
     auto* csv = app.add_option("--csv", options->csv,
                                "As a table with the columns of `track`, to this file or, without "

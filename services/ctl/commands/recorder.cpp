@@ -9,14 +9,14 @@
 namespace pursuit::ctl {
 namespace {
 
-struct Options {
+struct RecorderOptions {
     DdsOptions dds;
     double rate = 1;
 };
 
 /// A call without a result: `fill` makes it.
-Run define_call(CLI::App& app, std::shared_ptr<Options> options,
-                std::function<void(v1::RecorderCall&, const Options&)> fill) {
+Run define_call(CLI::App& app, std::shared_ptr<RecorderOptions> options,
+                std::function<void(v1::RecorderCall&, const RecorderOptions&)> fill) {
     add_dds_options(app, options->dds);
     return [options, fill] {
         v1::RecorderRequest request;
@@ -29,25 +29,25 @@ Run define_call(CLI::App& app, std::shared_ptr<Options> options,
 }  // namespace
 
 Run define_recorder_pause(CLI::App& app) {
-    return define_call(app, std::make_shared<Options>(),
-                       [](v1::RecorderCall& call, const Options&) { call.pause({}); });
+    return define_call(app, std::make_shared<RecorderOptions>(),
+                       [](v1::RecorderCall& call, const RecorderOptions&) { call.pause({}); });
 }
 
 Run define_recorder_resume(CLI::App& app) {
-    return define_call(app, std::make_shared<Options>(),
-                       [](v1::RecorderCall& call, const Options&) { call.resume({}); });
+    return define_call(app, std::make_shared<RecorderOptions>(),
+                       [](v1::RecorderCall& call, const RecorderOptions&) { call.resume({}); });
 }
 
 Run define_recorder_new_file(CLI::App& app) {
-    return define_call(app, std::make_shared<Options>(),
-                       [](v1::RecorderCall& call, const Options&) { call.new_file({}); });
+    return define_call(app, std::make_shared<RecorderOptions>(),
+                       [](v1::RecorderCall& call, const RecorderOptions&) { call.new_file({}); });
 }
 
 Run define_recorder_rate(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RecorderOptions>();
     app.add_option("rate", options->rate, "Of a replay, times real time; 0: as fast as possible")
         ->required();
-    return define_call(app, options, [](v1::RecorderCall& call, const Options& chosen) {
+    return define_call(app, options, [](v1::RecorderCall& call, const RecorderOptions& chosen) {
         v1::ReplayRate rate;
         rate.rate(chosen.rate);
         call.set_rate(rate);

@@ -11,7 +11,7 @@
 namespace pursuit::ctl {
 namespace {
 
-struct Options {
+struct ReportOptions {
     std::string recording;
     std::string truth;
     std::string output = "pursuit-report.html";
@@ -36,7 +36,7 @@ void print_summary(const Report& page) {
     std::printf("%s\n", verdict(page).text.c_str());
 }
 
-int run(const Options& options) {
+int write_report(const ReportOptions& options) {
     const auto recorded = read_run(options.recording, options.slices,
                                    static_cast<std::int64_t>(options.slice_ms * 1000));
     if (!recorded) return report(recorded.error());
@@ -56,7 +56,7 @@ int run(const Options& options) {
 }  // namespace
 
 Run define_report(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ReportOptions>();
     app.add_option("recording", options->recording, "Recording of the services, MCAP")->required();
     app.add_option("--truth", options->truth, "Table of truth, CSV: adds errors");
     app.add_option("--output", options->output, "The page, HTML")->capture_default_str();
@@ -69,7 +69,7 @@ Run define_report(CLI::App& app) {
         ->capture_default_str();
     app.add_flag("--check", options->check,
                  "Exit code 1 unless every object was tracked to the end and nothing was lost");
-    return [options] { return run(*options); };
+    return [options] { return write_report(*options); };
 }
 
 }  // namespace pursuit::ctl

@@ -14,7 +14,7 @@
 namespace pursuit::ctl {
 namespace {
 
-struct Options {
+struct SensorOptions {
     DdsOptions dds;
     double rate = 1;
     std::vector<std::string> filters;
@@ -22,8 +22,8 @@ struct Options {
 };
 
 /// A call without a result: `fill` makes it.
-Run define_call(CLI::App& app, std::shared_ptr<Options> options,
-                std::function<void(v1::SensorCall&, const Options&)> fill) {
+Run define_call(CLI::App& app, std::shared_ptr<SensorOptions> options,
+                std::function<void(v1::SensorCall&, const SensorOptions&)> fill) {
     add_dds_options(app, options->dds);
     return [options, fill] {
         v1::SensorRequest request;
@@ -52,7 +52,7 @@ int list_filter_kinds() {
     return exit_success;
 }
 
-int set_filters(const Options& options) {
+int set_filters(const SensorOptions& options) {
     if (options.filters.empty() != options.none) {
         return report({options.none ? "--none goes with no filter" : "no filter; --none for none"});
     }
@@ -73,7 +73,7 @@ int set_filters(const Options& options) {
 }  // namespace
 
 Run define_sensor_filters(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<SensorOptions>();
     add_dds_options(app, options->dds);
     app.add_option("filter", options->filters,
                    "\"NAME parameter=number … file=PATH\", in the order they apply; all there are");
@@ -84,19 +84,19 @@ Run define_sensor_filters(CLI::App& app) {
 Run define_sensor_filter_kinds(CLI::App&) { return list_filter_kinds; }
 
 Run define_sensor_pause(CLI::App& app) {
-    return define_call(app, std::make_shared<Options>(),
-                       [](v1::SensorCall& call, const Options&) { call.pause({}); });
+    return define_call(app, std::make_shared<SensorOptions>(),
+                       [](v1::SensorCall& call, const SensorOptions&) { call.pause({}); });
 }
 
 Run define_sensor_resume(CLI::App& app) {
-    return define_call(app, std::make_shared<Options>(),
-                       [](v1::SensorCall& call, const Options&) { call.resume({}); });
+    return define_call(app, std::make_shared<SensorOptions>(),
+                       [](v1::SensorCall& call, const SensorOptions&) { call.resume({}); });
 }
 
 Run define_sensor_rate(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<SensorOptions>();
     app.add_option("rate", options->rate, "Times real time; 0: as fast as possible")->required();
-    return define_call(app, options, [](v1::SensorCall& call, const Options& chosen) {
+    return define_call(app, options, [](v1::SensorCall& call, const SensorOptions& chosen) {
         v1::SetRate rate;
         rate.rate(chosen.rate);
         call.set_rate(rate);

@@ -15,7 +15,7 @@
 namespace pursuit::ctl {
 namespace {
 
-struct Options {
+struct SimulateOptions {
     std::string scene;
     std::vector<std::string> settings;
     std::string events;
@@ -25,7 +25,8 @@ struct Options {
     sensor::SimulationFiles files;
 };
 
-Result<sensor::SimulationSummary> write(const Options& options, const sensor::Scene& scene) {
+Result<sensor::SimulationSummary> write(const SimulateOptions& options,
+                                        const sensor::Scene& scene) {
     const auto& array = scene.description().sensor();
     const Geometry geometry{static_cast<std::uint16_t>(array.width()),
                             static_cast<std::uint16_t>(array.height())};
@@ -48,7 +49,7 @@ Result<sensor::SimulationSummary> write(const Options& options, const sensor::Sc
     return summary;
 }
 
-int simulate(Options& options) {
+int simulate(SimulateOptions& options) {
     const auto scene = sensor::load_scene(options.scene, options.settings);
     if (!scene) return report(scene.error(), exit_configuration);
     if (!options.models.empty()) options.files.models_dir = options.models;
@@ -71,7 +72,7 @@ std::string scene_help() {
 }  // namespace
 
 Run define_simulate(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<SimulateOptions>();
     app.add_option("SCENE", options->scene, scene_help())->required();
     app.add_option("--set", options->settings,
                    "field=value over the scene, as sensor.threshold=0.3 or "

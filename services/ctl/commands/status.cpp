@@ -29,7 +29,7 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr auto settle_time = 1000ms;
 constexpr auto poll_period = 10ms;
 
-struct Options {
+struct StatusOptions {
     DdsOptions dds;
     bool json = false;
     bool watch = false;
@@ -143,7 +143,7 @@ int watch(Listener& listener, bool json) {
     }
 }
 
-int status(const Options& options) {
+int status(const StatusOptions& options) {
     auto participant = join(options.dds);
     if (!participant) return report(participant.error());
     Listener listener;
@@ -175,7 +175,7 @@ int status(const Options& options) {
 }  // namespace
 
 Run define_status(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<StatusOptions>();
     add_dds_options(app, options->dds);
     app.add_flag("--json", options->json, "As one JSON object");
     app.add_flag("--watch", options->watch, "Again every second, until interrupted");

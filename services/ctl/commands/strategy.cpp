@@ -13,7 +13,7 @@
 namespace pursuit::ctl {
 namespace {
 
-struct Options {
+struct StrategyOptions {
     DdsOptions dds;
     std::string strategy;
     std::vector<std::string> settings;
@@ -24,7 +24,7 @@ std::string name_of(v1::OcclusionStrategy strategy) {
     return std::string(tracker::to_string(static_cast<tracker::StrategyKind>(strategy)));
 }
 
-int strategy_get(const Options& options) {
+int strategy_get(const StrategyOptions& options) {
     v1::TrackerRequest request;
     request.call().get_occlusion_strategy({});
     const auto reply = call_tracker(options.dds, request);
@@ -35,7 +35,7 @@ int strategy_get(const Options& options) {
     return exit_success;
 }
 
-int strategy_set(const Options& options) {
+int strategy_set(const StrategyOptions& options) {
     const auto kind = tracker::parse_strategy(options.strategy);
     if (!kind) {
         return report(Error{"\"" + options.strategy + "\" is not " + tracker::strategy_names()});
@@ -65,13 +65,13 @@ int strategy_list() {
 }  // namespace
 
 Run define_strategy_get(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<StrategyOptions>();
     add_dds_options(app, options->dds);
     return [options] { return strategy_get(*options); };
 }
 
 Run define_strategy_set(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<StrategyOptions>();
     add_dds_options(app, options->dds);
     app.add_option("strategy", options->strategy, tracker::strategy_names())->required();
     app.add_option("--set", options->settings, "name=value: a parameter of the strategy")

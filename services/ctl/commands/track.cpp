@@ -15,7 +15,7 @@
 namespace pursuit::ctl {
 namespace {
 
-struct Options {
+struct TrackOptions {
     OfflineTrack task;
     std::string config;
     std::vector<std::string> settings;
@@ -28,7 +28,7 @@ struct Options {
     double to_s = 0;
 };
 
-Result<void> complete(Options& options) {
+Result<void> complete(TrackOptions& options) {
     auto& task = options.task;
     if (!options.config.empty()) {
         if (auto ok = read_text_file(options.config, task.config); !ok) return ok;
@@ -57,7 +57,7 @@ Result<void> complete(Options& options) {
     return {};
 }
 
-int track(Options& options) {
+int track(TrackOptions& options) {
     if (auto ok = complete(options); !ok) return report(ok.error(), exit_configuration);
     const auto range = sensor::range_of_seconds(options.from_s, options.to_s);
     if (!range) return report(range.error());
@@ -79,7 +79,7 @@ int track(Options& options) {
 }  // namespace
 
 Run define_track(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<TrackOptions>();
     app.add_option("--events", options->task.events, "Recording of events")->required();
     app.add_option("--model", options->task.models, "PATH[@x,y,theta[,scale]]; once an object");
     app.add_option("--poses", options->task.poses, "Table of poses to write, CSV")->required();

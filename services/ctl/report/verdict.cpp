@@ -4,8 +4,11 @@
 #include "services/ctl/report/report.hpp"
 
 namespace pursuit::ctl {
+namespace {
 
 using State = ReportPose::State;
+
+}  // namespace
 
 ReportVerdict verdict(const ReportObject& object) {
     if (object.poses.empty()) return {false, "no pose"};

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t buffer_bytes = 128 << 10;
 
-std::string system_error(const std::string& path, const char* what) {
+std::string input_error(const std::string& path, const char* what) {
     return path + ": cannot " + what + ": " + std::strerror(errno);
 }
 
@@ -24,10 +24,10 @@ std::string system_error(const std::string& path, const char* what) {
 
 Result<std::unique_ptr<FileInput>> FileInput::open(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) return fail(system_error(path, "open"));
+    if (file < 0) return fail(input_error(path, "open"));
     auto input = std::make_unique<FileInput>(file, path);
     struct stat facts {};
-    if (::fstat(file, &facts) != 0) return fail(system_error(path, "examine"));
+    if (::fstat(file, &facts) != 0) return fail(input_error(path, "examine"));
     if (!S_ISREG(facts.st_mode)) return fail(path + ": is not a regular file");
     return input;
 }
@@ -36,7 +36,7 @@ FileInput::~FileInput() { ::close(file_); }
 
 Result<std::uint64_t> FileInput::size() {
     struct stat facts {};
-    if (::fstat(file_, &facts) != 0) return fail(system_error(path_, "examine"));
+    if (::fstat(file_, &facts) != 0) return fail(input_error(path_, "examine"));
     return static_cast<std::uint64_t>(facts.st_size);
 }
 
@@ -46,7 +46,7 @@ Result<std::size_t> FileInput::read_at(std::uint64_t offset, std::span<std::uint
         const auto n = ::pread(file_, into.data() + done, into.size() - done,
                                static_cast<off_t>(offset + done));
         if (n < 0 && errno == EINTR) continue;
-        if (n < 0) return fail(system_error(path_, "read"));
+        if (n < 0) return fail(input_error(path_, "read"));
         if (n == 0) break;
         done += static_cast<std::size_t>(n);
     }

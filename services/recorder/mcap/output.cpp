@@ -11,7 +11,7 @@
 namespace pursuit::recorder::mcap {
 namespace {
 
-std::string system_error(const std::string& path, const char* what) {
+std::string output_error(const std::string& path, const char* what) {
     return path + ": cannot " + what + ": " + std::strerror(errno);
 }
 
@@ -19,14 +19,14 @@ std::string system_error(const std::string& path, const char* what) {
 
 Result<std::unique_ptr<FileOutput>> FileOutput::create(const std::string& path) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-    if (file < 0) return fail(system_error(path, "create"));
+    if (file < 0) return fail(output_error(path, "create"));
     auto output = std::make_unique<FileOutput>(file, path);
     const auto folder = std::filesystem::path(path).parent_path();
     const int directory =
         ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (directory < 0) return fail(system_error(path, "open the folder of"));
+    if (directory < 0) return fail(output_error(path, "open the folder of"));
     const bool synced = ::fsync(directory) == 0;
-    const std::string error = synced ? "" : system_error(path, "sync the folder of");
+    const std::string error = synced ? "" : output_error(path, "sync the folder of");
     ::close(directory);
     if (!synced) return fail(error);
     return output;
@@ -40,7 +40,7 @@ Result<void> FileOutput::write(ByteSpan data) {
     while (!data.empty()) {
         const auto written = ::write(file_, data.data(), data.size());
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return fail(system_error(path_, "write"));
+        if (written < 0) return fail(output_error(path_, "write"));
         if (written == 0) return fail(path_ + ": cannot write: nothing was taken");
         data = data.subspan(static_cast<std::size_t>(written));
     }
@@ -48,7 +48,7 @@ Result<void> FileOutput::write(ByteSpan data) {
 }
 
 Result<void> FileOutput::flush() {
-    if (::fdatasync(file_) != 0) return fail(system_error(path_, "flush"));
+    if (::fdatasync(file_) != 0) return fail(output_error(path_, "flush"));
     return {};
 }
 

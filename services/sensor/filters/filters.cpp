@@ -16,7 +16,7 @@
 namespace pursuit::sensor {
 namespace {
 
-constexpr FilterKind table[] = {
+constexpr FilterKind all_kinds[] = {
     {"region_of_interest", "keeps what is inside a rectangle, or outside of it",
      region_of_interest_parameters, false, make_region_of_interest},
     {"pixel_mask", "drops the events of listed pixels", {}, true, make_pixel_mask},
@@ -40,13 +40,13 @@ constexpr FilterKind table[] = {
 
 }  // namespace
 
-std::span<const FilterKind> filter_kinds() { return table; }
+std::span<const FilterKind> filter_kinds() { return all_kinds; }
 
 Result<std::size_t> find_filter_kind(std::string_view name) {
     std::string names;
-    for (std::size_t i = 0; i < std::size(table); ++i) {
-        if (table[i].name == name) return i;
-        names += (i == 0 ? "" : ", ") + std::string(table[i].name);
+    for (std::size_t i = 0; i < std::size(all_kinds); ++i) {
+        if (all_kinds[i].name == name) return i;
+        names += (i == 0 ? "" : ", ") + std::string(all_kinds[i].name);
     }
     return fail("no filter is named \"" + std::string(name.substr(0, 64)) + "\"; there are " +
                 names);
@@ -55,9 +55,9 @@ Result<std::size_t> find_filter_kind(std::string_view name) {
 Result<void> check_filter(const FilterSetting& setting) {
     const auto kind = find_filter_kind(setting.filter);
     if (!kind) return tl::unexpected(kind.error());
-    const auto arguments = FilterArguments::of(setting, table[*kind].parameters);
+    const auto arguments = FilterArguments::of(setting, all_kinds[*kind].parameters);
     if (!arguments) return tl::unexpected(arguments.error());
-    if (table[*kind].takes_file == setting.file.empty()) {
+    if (all_kinds[*kind].takes_file == setting.file.empty()) {
         return fail(setting.file.empty() ? "file is missing" : "file: this filter takes none");
     }
     return {};
@@ -65,7 +65,7 @@ Result<void> check_filter(const FilterSetting& setting) {
 
 Result<std::unique_ptr<Filter>> make_filter(const FilterSetting& setting, Geometry input) {
     if (auto ok = check_filter(setting); !ok) return tl::unexpected(ok.error());
-    const auto& kind = table[*find_filter_kind(setting.filter)];
+    const auto& kind = all_kinds[*find_filter_kind(setting.filter)];
     return kind.make(*FilterArguments::of(setting, kind.parameters), input);
 }
 

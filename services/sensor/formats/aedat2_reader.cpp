@@ -13,9 +13,9 @@ namespace pursuit::sensor {
 namespace {
 
 constexpr std::string_view magic = "#!AER-DAT";
-constexpr std::size_t event_bytes = 8;
-constexpr std::size_t longest_line = 4096;
-constexpr int most_lines = 1000;
+constexpr std::size_t aedat2_event_bytes = 8;
+constexpr std::size_t aedat2_longest_line = 4096;
+constexpr int aedat2_most_lines = 1000;
 
 /// A camera: what its addresses mean.
 struct Chip {
@@ -53,14 +53,14 @@ class Aedat2Reader final : public EventReader {
  protected:
     Decoded decode(std::span<Event> events, std::span<Event> /*exposures*/) override {
         Decoded done;
-        const auto records = records_ahead(bytes_, event_bytes, "an event");
+        const auto records = records_ahead(bytes_, aedat2_event_bytes, "an event");
         if (!records) {
             done.error = records.error();
             return done;
         }
         done.goes_on = !records->empty();
         for (std::size_t i = 0; i < records->size() && done.count < events.size();
-             i += event_bytes) {
+             i += aedat2_event_bytes) {
             const auto address = big_endian(records->data() + i);
             if ((address & chip_.no_event) == 0) {
                 const auto stored_us = big_endian(records->data() + i + 4);
@@ -70,7 +70,7 @@ class Aedat2Reader final : public EventReader {
                 }
                 ++done.count;
             }
-            bytes_.consume(event_bytes);
+            bytes_.consume(aedat2_event_bytes);
         }
         return done;
     }
@@ -118,7 +118,7 @@ Result<const Chip*> read_header(ByteWindow& bytes) {
         const auto fault = [&](const std::string& cause) {
             return tl::unexpected(error_at(bytes.name(), bytes.offset(), cause));
         };
-        const auto line = bytes.line(longest_line);
+        const auto line = bytes.line(aedat2_longest_line);
         if (!line) return tl::unexpected(line.error());
         if (lines == 0 && line->substr(0, magic.size() + 2) != "#!AER-DAT2.") {
             return fault(line->substr(0, magic.size()) == magic
@@ -127,7 +127,7 @@ Result<const Chip*> read_header(ByteWindow& bytes) {
                              : "does not begin with \"#!AER-DAT2.0\"");
         }
         if (line->substr(0, 1) != "#" || !is_text_line(*line)) return chip;
-        if (lines == most_lines) return fault("more than 1000 header lines");
+        if (lines == aedat2_most_lines) return fault("more than 1000 header lines");
         constexpr std::string_view key = "# AEChip:";
         if (line->substr(0, key.size()) == key) {
             auto rest = line->substr(key.size());

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t packet_header_bytes = 8;
 constexpr std::size_t most_packet_bytes = 64 << 20;
-constexpr std::size_t event_bytes = sizeof(aedat4::Event);
-static_assert(event_bytes == 16);
+constexpr std::size_t aedat4_event_bytes = sizeof(aedat4::Event);
+static_assert(aedat4_event_bytes == 16);
 
 class Aedat4Reader final : public EventReader {
  public:
@@ -36,17 +36,17 @@ class Aedat4Reader final : public EventReader {
                 return done;
             }
         }
-        const auto count = std::min(rest_.size() / event_bytes, events.size());
+        const auto count = std::min(rest_.size() / aedat4_event_bytes, events.size());
         while (done.count < count) {
             if (auto cause = read_event(rest_.data(), events[done.count])) {
-                const auto index = (events_.size() - rest_.size()) / event_bytes;
+                const auto index = (events_.size() - rest_.size()) / aedat4_event_bytes;
                 done.error =
                     error_at(bytes_.name(), packet_offset_,
                              "event " + std::to_string(index) + " of the packet: " + *cause);
                 return done;
             }
             ++done.count;
-            rest_ = rest_.subspan(event_bytes);
+            rest_ = rest_.subspan(aedat4_event_bytes);
         }
         return done;
     }
@@ -96,7 +96,7 @@ class Aedat4Reader final : public EventReader {
         if (stream == streams.front().id) {
             rest_ = events_;
         } else {
-            skipped += events_.size() / event_bytes;
+            skipped += events_.size() / aedat4_event_bytes;
         }
         return {};
     }
@@ -140,7 +140,7 @@ class Aedat4Reader final : public EventReader {
         const auto* events = packet->events();
         events_ = events == nullptr
                       ? std::span<const std::uint8_t>{}
-                      : std::span(events->Data(), std::size_t{events->size()} * event_bytes);
+                      : std::span(events->Data(), std::size_t{events->size()} * aedat4_event_bytes);
         return {};
     }
 

@@ -12,10 +12,10 @@
 namespace pursuit::sensor {
 namespace {
 
-constexpr std::size_t longest_line = 1024;
+constexpr std::size_t csv_longest_line = 1024;
 constexpr std::size_t most_columns = 16;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_csv_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_remark(std::string_view line) { return line[0] == '#' || line[0] == '%'; }
 
 /// Which column holds what.
@@ -64,7 +64,7 @@ class CsvReader final : public EventReader {
             const auto text = trimmed(*line);
             if (text.empty() || is_remark(text)) {
                 if (auto stated = stated_geometry(text)) geometry_ = *stated;
-            } else if (!has_names && !is_digit(text[0]) && text[0] != '-') {
+            } else if (!has_names && !is_csv_digit(text[0]) && text[0] != '-') {
                 const auto columns = columns_named(text);
                 if (!columns) {
                     return tl::unexpected(error(
@@ -108,7 +108,7 @@ class CsvReader final : public EventReader {
             }
             bytes_.consume(line->size());
             // What has arrived is not held back until the next line has.
-            if (done.count > 0 && bytes_.at_hand().size() < longest_line) break;
+            if (done.count > 0 && bytes_.at_hand().size() < csv_longest_line) break;
         }
         return done;
     }
@@ -116,10 +116,10 @@ class CsvReader final : public EventReader {
  private:
     /// The line ahead, counted, not consumed; empty at the end.
     Result<std::string_view> next_line() {
-        const auto line = bytes_.line(longest_line);
+        const auto line = bytes_.line(csv_longest_line);
         if (!line || line->empty()) return line;
         ++line_;
-        if (line->size() == longest_line && line->back() != '\n') {
+        if (line->size() == csv_longest_line && line->back() != '\n') {
             return tl::unexpected(error("the line is longer than 1024 bytes"));
         }
         return line;

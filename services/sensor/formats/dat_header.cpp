@@ -11,10 +11,10 @@
 namespace pursuit::sensor {
 namespace {
 
-constexpr std::size_t longest_line = 4096;
-constexpr int most_lines = 1000;
-constexpr std::uint8_t event_bytes = 8;
-constexpr int largest_side = 1 << 14;  // an event has 14 bits for x and for y
+constexpr std::size_t dat_longest_line = 4096;
+constexpr int dat_most_lines = 1000;
+constexpr std::uint8_t dat_stated_event_bytes = 8;
+constexpr int largest_dat_side = 1 << 14;  // an event has 14 bits for x and for y
 
 /// The next word of `line`, which loses it.
 std::string_view take_word(std::string_view& line) {
@@ -40,7 +40,7 @@ Result<void> read_field(std::string_view line, Fields& fields) {
                                    : nullptr;
     if (field == nullptr) return {};
     const auto word = take_word(line);
-    const int most = key == "Version" ? 2 : largest_side;
+    const int most = key == "Version" ? 2 : largest_dat_side;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), *field);
     if (error != std::errc() || end != word.data() + word.size() || *field < 1 || *field > most) {
         return fail(std::string(key) + " \"" + std::string(word) + "\" is not a number from 1 to " +
@@ -63,7 +63,7 @@ Result<void> read_type_and_size(ByteWindow& bytes) {
         return at(0, "events of type " + std::to_string(type) +
                          " are not change detection events (0 or 12)");
     }
-    if (size != event_bytes) {
+    if (size != dat_stated_event_bytes) {
         return at(1, "events of " + std::to_string(size) + " bytes, must be 8");
     }
     bytes.consume(2);
@@ -81,10 +81,10 @@ Result<DatHeader> read_dat_header(ByteWindow& bytes) {
             if (lines == 0) return DatHeader{};
             break;
         }
-        const auto line = bytes.line(longest_line);
+        const auto line = bytes.line(dat_longest_line);
         if (!line) return tl::unexpected(line.error());
         const bool ends = line->back() == '\n';
-        if (!ends || lines == most_lines) {
+        if (!ends || lines == dat_most_lines) {
             return tl::unexpected(
                 error_at(bytes.name(), bytes.offset(),
                          ends ? "more than 1000 header lines" : "a header line does not end"));

@@ -11,7 +11,7 @@
 namespace pursuit::sensor {
 namespace {
 
-constexpr std::size_t event_bytes = 8;
+constexpr std::size_t dat_event_bytes = 8;
 constexpr Geometry atis{304, 240};
 
 /// The parts of an address, or of four side by side.
@@ -63,19 +63,19 @@ class DatReader final : public EventReader {
  protected:
     Decoded decode(std::span<Event> events, std::span<Event> /*exposures*/) override {
         Decoded done;
-        const auto records = records_ahead(bytes_, event_bytes, "an event");
+        const auto records = records_ahead(bytes_, dat_event_bytes, "an event");
         if (!records) {
             done.error = records.error();
             return done;
         }
-        events = events.first(std::min(records->size() / event_bytes, events.size()));
+        events = events.first(std::min(records->size() / dat_event_bytes, events.size()));
         const auto* bytes = records->data();
         while (done.count < events.size() && !done.error) {
             const auto wanted = std::min(events.size() - done.count, block_events);
             const auto good = decode_block(bytes, events.subspan(done.count, wanted));
-            bytes += good * event_bytes;
+            bytes += good * dat_event_bytes;
             done.count += good;
-            bytes_.consume(good * event_bytes);
+            bytes_.consume(good * dat_event_bytes);
             if (good < wanted) done.error = describe(word_at(bytes));
         }
         return done;
@@ -101,8 +101,8 @@ class DatReader final : public EventReader {
         auto last = static_cast<std::int32_t>(last_t_us_);
         Lanes bad = {};
         for (std::size_t i = 0; i < fours; i += 4) {
-            const auto first = load_lanes(bytes + i * event_bytes);
-            const auto second = load_lanes(bytes + (i + 2) * event_bytes);
+            const auto first = load_lanes(bytes + i * dat_event_bytes);
+            const auto second = load_lanes(bytes + (i + 2) * dat_event_bytes);
             const auto t_us = __builtin_shufflevector(first, second, 0, 2, 4, 6);
             const auto address = __builtin_shufflevector(first, second, 1, 3, 5, 7);
             const auto x = Version::x(address);
@@ -115,12 +115,12 @@ class DatReader final : public EventReader {
         }
         if (any(bad)) return decode_one_by_one(bytes, events);
         last_t_us_ = static_cast<std::uint32_t>(last);
-        return fours + decode_one_by_one(bytes + fours * event_bytes, events.subspan(fours));
+        return fours + decode_one_by_one(bytes + fours * dat_event_bytes, events.subspan(fours));
     }
 
     std::size_t decode_one_by_one(const std::uint8_t* bytes, std::span<Event> events) {
         for (std::size_t i = 0; i < events.size(); ++i) {
-            const Word word = word_at(bytes + i * event_bytes);
+            const Word word = word_at(bytes + i * dat_event_bytes);
             if (!fits(word)) return i;
             if (word.t_us < last_t_us_) {
                 if (!wraps(word)) return i;
@@ -159,7 +159,7 @@ Result<int> guess_version(ByteWindow& bytes) {
     const auto ahead = bytes.ahead(1 << 16);
     if (!ahead) return tl::unexpected(ahead.error());
     std::uint32_t bits = 0;
-    for (std::size_t i = 0; i + event_bytes <= ahead->size(); i += event_bytes) {
+    for (std::size_t i = 0; i + dat_event_bytes <= ahead->size(); i += dat_event_bytes) {
         bits |= word_at(ahead->data() + i).address;
     }
     return (bits >> 18) != 0 ? 2 : 1;

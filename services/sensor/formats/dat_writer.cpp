@@ -10,7 +10,7 @@ namespace pursuit::sensor {
 namespace {
 
 constexpr std::int64_t wrap_us = std::int64_t{1} << 32;
-constexpr int largest_side = 1 << 14;
+constexpr int largest_written_side = 1 << 14;
 
 class DatWriter final : public EventWriter {
  public:
@@ -48,8 +48,8 @@ class DatWriter final : public EventWriter {
 
 Result<std::unique_ptr<EventWriter>> create_dat(const std::string& path, Geometry geometry,
                                                 bool /*exposures*/) {
-    if (geometry.width < 1 || geometry.height < 1 || geometry.width > largest_side ||
-        geometry.height > largest_side) {
+    if (geometry.width < 1 || geometry.height < 1 || geometry.width > largest_written_side ||
+        geometry.height > largest_written_side) {
         return fail(path + ": DAT cannot hold " + std::to_string(geometry.width) + "x" +
                     std::to_string(geometry.height) + " pixels");
     }

@@ -11,7 +11,7 @@
 namespace pursuit::sensor {
 namespace {
 
-constexpr std::ptrdiff_t event_bytes = es::event_bytes;
+constexpr std::ptrdiff_t es_event_bytes = es::event_bytes;
 
 template <class Kind>
 class EsReader final : public EventReader {
@@ -42,7 +42,7 @@ class EsReader final : public EventReader {
  private:
     /// Waits for the whole of the event that is ahead.
     Result<std::span<const std::uint8_t>> whole_event_ahead() {
-        if (auto whole = records_ahead(bytes_, event_bytes, "an event"); !whole) return whole;
+        if (auto whole = records_ahead(bytes_, es_event_bytes, "an event"); !whole) return whole;
         return bytes_.at_hand();
     }
 
@@ -63,8 +63,8 @@ class EsReader final : public EventReader {
         bool is_good = true;
         while (is_good) {
             // So many times there is an event to read, and room for it, whatever it is.
-            auto safe =
-                std::min({(end - at) / event_bytes, events_end - event, exposures_end - exposure});
+            auto safe = std::min(
+                {(end - at) / es_event_bytes, events_end - event, exposures_end - exposure});
             if (safe == 0) break;
             for (; safe > 0; --safe) {
                 const auto first = *at;

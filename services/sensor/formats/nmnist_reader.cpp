@@ -10,11 +10,11 @@
 namespace pursuit::sensor {
 namespace {
 
-constexpr std::size_t event_bytes = 5;
+constexpr std::size_t nmnist_event_bytes = 5;
 constexpr std::uint32_t time_marker_y = 240;
 constexpr std::int64_t time_marker_us = 1 << 13;
 constexpr Geometry nmnist{34, 34};
-constexpr Geometry atis{304, 240};
+constexpr Geometry nmnist_camera{304, 240};
 
 class NmnistReader final : public EventReader {
  public:
@@ -26,14 +26,14 @@ class NmnistReader final : public EventReader {
  protected:
     Decoded decode(std::span<Event> events, std::span<Event> /*exposures*/) override {
         Decoded done;
-        const auto records = records_ahead(bytes_, event_bytes, "an event");
+        const auto records = records_ahead(bytes_, nmnist_event_bytes, "an event");
         if (!records) {
             done.error = records.error();
             return done;
         }
         done.goes_on = !records->empty();
         for (std::size_t i = 0; i < records->size() && done.count < events.size();
-             i += event_bytes) {
+             i += nmnist_event_bytes) {
             const auto* at = records->data() + i;
             if (at[1] == time_marker_y) {
                 markers_us_ += time_marker_us;
@@ -43,7 +43,7 @@ class NmnistReader final : public EventReader {
             } else {
                 ++done.count;
             }
-            bytes_.consume(event_bytes);
+            bytes_.consume(nmnist_event_bytes);
         }
         return done;
     }
@@ -73,12 +73,12 @@ class NmnistReader final : public EventReader {
 
 /// The camera that the first events fit.
 Result<Geometry> guess_geometry(ByteWindow& bytes) {
-    const auto ahead = bytes.ahead(13'000 * event_bytes);
+    const auto ahead = bytes.ahead(13'000 * nmnist_event_bytes);
     if (!ahead) return tl::unexpected(ahead.error());
-    for (std::size_t i = 0; i + event_bytes <= ahead->size(); i += event_bytes) {
+    for (std::size_t i = 0; i + nmnist_event_bytes <= ahead->size(); i += nmnist_event_bytes) {
         const auto x = (*ahead)[i];
         const auto y = (*ahead)[i + 1];
-        if (y != time_marker_y && (x >= nmnist.width || y >= nmnist.height)) return atis;
+        if (y != time_marker_y && (x >= nmnist.width || y >= nmnist.height)) return nmnist_camera;
     }
     return nmnist;
 }

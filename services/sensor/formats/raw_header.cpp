@@ -10,14 +10,14 @@
 namespace pursuit::sensor {
 namespace {
 
-constexpr std::size_t longest_line = 4096;
-constexpr int most_lines = 1000;
-constexpr int largest_side = 1 << 11;  // an event has 11 bits for x and for y
+constexpr std::size_t raw_longest_line = 4096;
+constexpr int raw_most_lines = 1000;
+constexpr int raw_largest_side = 1 << 11;  // an event has 11 bits for x and for y
 
 /// A side of the pixel array, 0 where the text is none.
 std::uint16_t side(std::string_view text) {
     int number = 0;
-    const bool good = parse(text, number) && number >= 1 && number <= largest_side;
+    const bool good = parse(text, number) && number >= 1 && number <= raw_largest_side;
     return good ? static_cast<std::uint16_t>(number) : std::uint16_t{0};
 }
 
@@ -71,10 +71,10 @@ Result<RawHeader> read_raw_header(ByteWindow& bytes) {
         const auto first = bytes.ahead(1);
         if (!first) return tl::unexpected(first.error());
         if (first->empty() || first->front() != '%') return header;
-        const auto line = bytes.line(longest_line);
+        const auto line = bytes.line(raw_longest_line);
         if (!line) return tl::unexpected(line.error());
         if (!is_text_line(*line)) return header;
-        if (lines == most_lines) {
+        if (lines == raw_most_lines) {
             return tl::unexpected(
                 error_at(bytes.name(), bytes.offset(), "more than 1000 header lines"));
         }

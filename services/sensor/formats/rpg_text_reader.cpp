@@ -11,10 +11,10 @@
 namespace pursuit::sensor {
 namespace {
 
-constexpr std::size_t longest_line = 256;
+constexpr std::size_t rpg_longest_line = 256;
 constexpr Geometry davis240{240, 180};
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_rpg_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// "2.097134501" → 2097135. Digit by digit: as a double, a time since 1970 would lose its us.
 std::optional<std::int64_t> microseconds(std::string_view word) {
@@ -24,7 +24,7 @@ std::optional<std::int64_t> microseconds(std::string_view word) {
     for (const char c : word) {
         if (c == '.' && decimals < 0) {
             decimals = 0;
-        } else if (!is_digit(c)) {
+        } else if (!is_rpg_digit(c)) {
             return std::nullopt;
         } else if (decimals < 6) {
             if (t_us > std::int64_t{100'000'000'000'000'000}) return std::nullopt;
@@ -55,14 +55,14 @@ class RpgTextReader final : public EventReader {
     Decoded decode(std::span<Event> events, std::span<Event> /*exposures*/) override {
         Decoded done;
         while (done.count < events.size() && !done.error) {
-            const auto line = bytes_.line(longest_line);
+            const auto line = bytes_.line(rpg_longest_line);
             if (!line) {
                 done.error = line.error();
                 break;
             }
             if (line->empty()) break;
             ++line_;
-            if (line->size() == longest_line && line->back() != '\n') {
+            if (line->size() == rpg_longest_line && line->back() != '\n') {
                 done.error = error("the line is longer than 256 bytes");
             } else if (auto cause = read_line(*line, events[done.count])) {
                 done.error = error(*cause);
@@ -71,7 +71,7 @@ class RpgTextReader final : public EventReader {
                 bytes_.consume(line->size());
             }
             // What has arrived is not held back until the next line has.
-            if (done.count > 0 && bytes_.at_hand().size() < longest_line) break;
+            if (done.count > 0 && bytes_.at_hand().size() < rpg_longest_line) break;
         }
         return done;
     }
@@ -117,7 +117,7 @@ class RpgTextReader final : public EventReader {
 
 bool looks_like_rpg_text(std::string_view head) {
     const auto begin = head.find_first_not_of(" \t\r\n");
-    return begin != std::string_view::npos && (is_digit(head[begin]) || head[begin] == '#') &&
+    return begin != std::string_view::npos && (is_rpg_digit(head[begin]) || head[begin] == '#') &&
            head.find('\0') == std::string_view::npos && head.find(',') == std::string_view::npos &&
            head.substr(0, 2) != "#!";
 }

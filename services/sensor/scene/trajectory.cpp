@@ -9,7 +9,7 @@
 namespace pursuit::sensor {
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double whole_turn = 2 * std::numbers::pi;
 
 /// Back and forth within [0, length].
 double there_and_back(double t_s, double length_s) {
@@ -44,7 +44,7 @@ PlanarMap planar_map(const Placement& p) {
 
 WanderPath::WanderPath(const disk::SceneWander& wander, double length_s, Random& random) {
     Point velocity = Point::Zero();
-    double direction = random.uniform(0, two_pi);
+    double direction = random.uniform(0, whole_turn);
     Knot knot{0, Point::Zero(), Point::Zero()};
     const auto go_on = [&](double duration_s, const Point& next_velocity) {
         knot.position_px += (knot.velocity_px_s + next_velocity) / 2 * duration_s;
@@ -58,7 +58,7 @@ WanderPath::WanderPath(const disk::SceneWander& wander, double length_s, Random&
             velocity.setZero();
         } else {
             direction = random.chance(wander.reverse_share()) ? direction + std::numbers::pi
-                                                              : random.uniform(0, two_pi);
+                                                              : random.uniform(0, whole_turn);
             const double speed = wander.speed_px_s() * random.uniform(0.6, 1.4);
             const double stretch_s = 1.5 * wander.stretch_s() + wander.change_s();
             // Where the way would leave the box it goes towards the middle instead.
@@ -77,8 +77,8 @@ WanderPath::WanderPath(const disk::SceneWander& wander, double length_s, Random&
         go_on(stretch_s, velocity);
     }
     const auto swing = [&](double amplitude, double low_hz, double high_hz) {
-        return Swing{amplitude, two_pi * random.uniform(low_hz, high_hz),
-                     random.uniform(0, two_pi)};
+        return Swing{amplitude, whole_turn * random.uniform(low_hz, high_hz),
+                     random.uniform(0, whole_turn)};
     };
     if (wander.turn_rad() > 0) {
         turn_ = {swing(0.6 * wander.turn_rad(), 0.2, 0.5),
@@ -150,7 +150,7 @@ Placement Trajectory::at(double t_s) const {
     double grow_y = 1;
     for (const auto& s : d.sine()) {
         const double value =
-            s.amplitude() * std::sin(two_pi * s.frequency_hz() * t_s + s.phase_rad());
+            s.amplitude() * std::sin(whole_turn * s.frequency_hz() * t_s + s.phase_rad());
         switch (s.target()) {
             case disk::SceneSine::X:
                 p.x_px += value;
@@ -185,7 +185,7 @@ Placement Trajectory::at(double t_s) const {
     p.scale_x = d.scale() * grow_x;
     p.scale_y = d.scale() * grow_y;
     if (d.has_disc()) {
-        const double angle = d.disc().phase_rad() + two_pi * d.disc().rpm() / 60 * t_s;
+        const double angle = d.disc().phase_rad() + whole_turn * d.disc().rpm() / 60 * t_s;
         p.x_px += d.disc().centre_x_px() + d.disc().radius_px() * std::cos(angle);
         p.y_px += d.disc().centre_y_px() + d.disc().radius_px() * std::sin(angle);
         p.theta_rad += angle;

@@ -30,8 +30,8 @@ std::string v2(std::uint32_t t_us, std::uint32_t x, std::uint32_t y, std::uint32
 }
 
 /// What a string of bytes decodes to; the error also where it cannot be opened.
-ReadAll decode(const std::string& bytes, const ReadOptions& options = {},
-               std::size_t at_a_time = 1000) {
+ReadAll decode_dat(const std::string& bytes, const ReadOptions& options = {},
+                   std::size_t at_a_time = 1000) {
     auto reader = open_events(
         from_memory("a.dat", {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}),
         options);
@@ -39,7 +39,7 @@ ReadAll decode(const std::string& bytes, const ReadOptions& options = {},
     return read_all(**reader, at_a_time);
 }
 
-Geometry geometry_of(const std::string& bytes) {
+Geometry dat_geometry_of(const std::string& bytes) {
     auto reader = open_events(
         from_memory("a.dat", {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}));
     return reader ? (*reader)->geometry() : Geometry{};
@@ -47,8 +47,8 @@ Geometry geometry_of(const std::string& bytes) {
 
 TEST(DatReader, reads_version_2_with_the_geometry_of_its_header) {
     const auto bytes = plain_header + v2(5, 63, 31, 1) + v2(5, 0, 0, 0) + v2(9, 1, 2, 1);
-    EXPECT_EQ(geometry_of(bytes), (Geometry{64, 32}));
-    const auto all = decode(bytes);
+    EXPECT_EQ(dat_geometry_of(bytes), (Geometry{64, 32}));
+    const auto all = decode_dat(bytes);
     EXPECT_EQ(all.error, "");
     EXPECT_EQ(all.events, (std::vector<Event>{{5, 63, 31, 1}, {5, 0, 0, 0}, {9, 1, 2, 1}}));
 }
@@ -56,57 +56,58 @@ TEST(DatReader, reads_version_2_with_the_geometry_of_its_header) {
 TEST(DatReader, reads_version_1) {
     const auto bytes = "% Version 1\n" + std::string("\0\x08", 2) +
                        word(7, 303 | 239 << 9 | 1 << 17) + word(8, 1 | 2 << 9);
-    EXPECT_EQ(geometry_of(bytes), (Geometry{304, 240}));
-    EXPECT_EQ(decode(bytes).events, (std::vector<Event>{{7, 303, 239, 1}, {8, 1, 2, 0}}));
+    EXPECT_EQ(dat_geometry_of(bytes), (Geometry{304, 240}));
+    EXPECT_EQ(decode_dat(bytes).events, (std::vector<Event>{{7, 303, 239, 1}, {8, 1, 2, 0}}));
 }
 
 TEST(DatReader, tells_the_version_of_a_file_without_header_by_its_bits) {
-    EXPECT_EQ(decode(v2(1, 3, 200, 0)).events, (std::vector<Event>{{1, 3, 200, 0}}));
-    EXPECT_EQ(decode(v2(1, 3, 2, 1)).events, (std::vector<Event>{{1, 3, 2, 1}}));
-    EXPECT_EQ(decode(word(1, 3 | 200 << 9 | 1 << 17)).events, (std::vector<Event>{{1, 3, 200, 1}}));
+    EXPECT_EQ(decode_dat(v2(1, 3, 200, 0)).events, (std::vector<Event>{{1, 3, 200, 0}}));
+    EXPECT_EQ(decode_dat(v2(1, 3, 2, 1)).events, (std::vector<Event>{{1, 3, 2, 1}}));
+    EXPECT_EQ(decode_dat(word(1, 3 | 200 << 9 | 1 << 17)).events,
+              (std::vector<Event>{{1, 3, 200, 1}}));
 }
 
 TEST(DatReader, an_asked_for_geometry_goes_over_the_header) {
     ReadOptions options;
     options.geometry = Geometry{1280, 720};
-    EXPECT_EQ(decode(plain_header + v2(1, 1279, 719, 0), options).error, "");
+    EXPECT_EQ(decode_dat(plain_header + v2(1, 1279, 719, 0), options).error, "");
 }
 
 TEST(DatReader, takes_a_header_with_windows_line_ends_and_remarks) {
-    EXPECT_EQ(geometry_of("%\r\n% Width 640\r\n% Height 480\r\n%% end\r\n\x0c\x08"),
+    EXPECT_EQ(dat_geometry_of("%\r\n% Width 640\r\n% Height 480\r\n%% end\r\n\x0c\x08"),
               (Geometry{640, 480}));
 }
 
 TEST(DatReader, a_header_without_events_is_an_empty_recording) {
-    const auto all = decode(plain_header);
+    const auto all = decode_dat(plain_header);
     EXPECT_EQ(all.error, "");
     EXPECT_TRUE(all.events.empty());
 }
 
 TEST(DatReader, names_the_byte_and_cause_of_what_is_wrong_in_a_header) {
-    EXPECT_EQ(decode("").error, "a.dat: byte 0: the file is empty");
-    EXPECT_EQ(decode("% Version 3\n\x0c\x08").error,
+    EXPECT_EQ(decode_dat("").error, "a.dat: byte 0: the file is empty");
+    EXPECT_EQ(decode_dat("% Version 3\n\x0c\x08").error,
               "a.dat: byte 0: Version \"3\" is not a number from 1 to 2");
-    EXPECT_EQ(decode("% Version 2\n% Width x\n\x0c\x08").error,
+    EXPECT_EQ(decode_dat("% Version 2\n% Width x\n\x0c\x08").error,
               "a.dat: byte 12: Width \"x\" is not a number from 1 to 16384");
-    EXPECT_EQ(decode("% Height 99999\n\x0c\x08").error,
+    EXPECT_EQ(decode_dat("% Height 99999\n\x0c\x08").error,
               "a.dat: byte 0: Height \"99999\" is not a number from 1 to 16384");
-    EXPECT_EQ(decode("% Width 5\n\x0c\x08").error,
+    EXPECT_EQ(decode_dat("% Width 5\n\x0c\x08").error,
               "a.dat: byte 10: the header states Width but no Height");
-    EXPECT_EQ(decode("% Version 2").error, "a.dat: byte 0: a header line does not end");
-    EXPECT_EQ(decode("% Version 2\n\x0c").error,
+    EXPECT_EQ(decode_dat("% Version 2").error, "a.dat: byte 0: a header line does not end");
+    EXPECT_EQ(decode_dat("% Version 2\n\x0c").error,
               "a.dat: byte 12: the file ends before the type and size of its events");
-    EXPECT_EQ(decode("% Version 2\n\x0e\x08").error,
+    EXPECT_EQ(decode_dat("% Version 2\n\x0e\x08").error,
               "a.dat: byte 12: events of type 14 are not change detection events (0 or 12)");
-    EXPECT_EQ(decode("% Version 2\n\x0c\x10").error,
+    EXPECT_EQ(decode_dat("% Version 2\n\x0c\x10").error,
               "a.dat: byte 13: events of 16 bytes, must be 8");
 }
 
 TEST(DatReader, refuses_a_header_without_end_in_bounded_memory) {
-    EXPECT_THAT(decode("%" + std::string(1 << 20, 'x')).error, HasSubstr("does not end"));
+    EXPECT_THAT(decode_dat("%" + std::string(1 << 20, 'x')).error, HasSubstr("does not end"));
     std::string lines;
     for (int i = 0; i < 2000; ++i) lines += "% x\n";
-    EXPECT_THAT(decode(lines).error, HasSubstr("more than 1000 header lines"));
+    EXPECT_THAT(decode_dat(lines).error, HasSubstr("more than 1000 header lines"));
 }
 
 TEST(DatReader, delivers_the_good_events_before_each_kind_of_bad_one) {
@@ -119,7 +120,7 @@ TEST(DatReader, delivers_the_good_events_before_each_kind_of_bad_one) {
         {v2(7, 1, 1, 2), "polarity 2 is not 0 or 1"},
         {std::string(3, 'x'), "the file ends within an event, after 3 of 8 bytes"}};
     for (const auto& [bad, cause] : cases) {
-        const auto all = decode(plain_header + good + bad);
+        const auto all = decode_dat(plain_header + good + bad);
         EXPECT_EQ(all.events, (std::vector<Event>{{5, 1, 1, 0}, {6, 2, 2, 1}}));
         EXPECT_EQ(all.error, "a.dat: byte " + at + ": " + cause);
     }
@@ -137,8 +138,8 @@ TEST(DatReader, keeps_returning_its_error) {
 
 TEST(DatReader, unwraps_time_at_32_bits_as_often_as_it_wraps) {
     const std::uint32_t high = 0xffff'fff0;
-    const auto all = decode(plain_header + v2(high, 0, 0, 0) + v2(3, 0, 0, 0) +
-                            v2(0x7000'0000, 0, 0, 0) + v2(high, 0, 0, 0) + v2(4, 0, 0, 0));
+    const auto all = decode_dat(plain_header + v2(high, 0, 0, 0) + v2(3, 0, 0, 0) +
+                                v2(0x7000'0000, 0, 0, 0) + v2(high, 0, 0, 0) + v2(4, 0, 0, 0));
     ASSERT_EQ(all.error, "");
     const std::int64_t wrap = std::int64_t{1} << 32;
     EXPECT_EQ(all.events[0].t_us, high);
@@ -187,7 +188,7 @@ TEST(DatReader, agrees_with_a_plain_decoder_on_random_streams_read_in_any_size) 
             bytes += i == bad ? word(any(), any()) : v2(t_us, below(64), below(32), below(2));
         }
         const auto expected = reference(bytes, {64, 32});
-        const auto all = decode(bytes, {}, 1 + below(2000));
+        const auto all = decode_dat(bytes, {}, 1 + below(2000));
         EXPECT_EQ(all.events, expected.events);
         EXPECT_EQ(all.error.empty(), expected.error.empty()) << all.error;
     }

@@ -14,11 +14,6 @@ namespace {
 
 using testing::HasSubstr;
 
-ReadAll read_file(const std::string& path) {
-    auto reader = open_events(path);
-    return reader ? read_all(**reader) : ReadAll{{}, reader.error().message};
-}
-
 TEST(DatWriter, what_it_writes_is_read_back_unchanged) {
     const test::TemporaryFolder folder;
     const auto path = folder.path("a.dat");

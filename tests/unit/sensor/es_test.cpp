@@ -19,31 +19,32 @@ using Events = std::vector<Event>;
 
 enum Type : char { dvs = 1, atis = 2 };
 
-std::string header(char type, std::uint16_t width = 64, std::uint16_t height = 32) {
-    return std::string("Event Stream\x02\0\0", 15) + type + little_endian(width) +
-           little_endian(height);
+std::string es_header(char type, std::uint16_t width = 64, std::uint16_t height = 32) {
+    std::string header("Event Stream\x02\0\0", 15);
+    header += type;
+    return header + little_endian(width) + little_endian(height);
 }
 
 std::string event(unsigned first, std::uint16_t x, std::uint16_t y_up) {
     return static_cast<char>(first) + little_endian(x) + little_endian(y_up);
 }
 
-ReadAll decode(const std::string& bytes, std::size_t at_a_time = 1000) {
+ReadAll decode_es(const std::string& bytes, std::size_t at_a_time = 1000) {
     return decode_bytes("a.es", bytes, {}, at_a_time);
 }
 
 TEST(EsReader, reads_dvs_events_with_y_upwards_and_time_in_steps) {
-    const auto all = decode(header(dvs) + event(0, 0, 0) + event(5 << 1 | 1, 63, 31) +
-                            "\xff\xfe\xff" + event(126 << 1, 1, 2));
+    const auto all = decode_es(es_header(dvs) + event(0, 0, 0) + event(5 << 1 | 1, 63, 31) +
+                               "\xff\xfe\xff" + event(126 << 1, 1, 2));
     EXPECT_EQ(all.error, "");
     EXPECT_EQ(all.events, (Events{{0, 0, 31, 0}, {5, 63, 0, 1}, {385, 1, 29, 0}}));
     EXPECT_TRUE(all.exposures.empty());
 }
 
 TEST(EsReader, reads_atis_events_apart_from_exposure_measurements) {
-    const auto bytes = header(atis) + event(1 << 2 | 2, 3, 0) + event(2 << 2 | 1, 4, 0) +
+    const auto bytes = es_header(atis) + event(1 << 2 | 2, 3, 0) + event(2 << 2 | 1, 4, 0) +
                        "\xff\xfd\xfc" + event(62 << 2 | 3, 4, 0) + event(0, 5, 31);
-    const auto all = decode(bytes);
+    const auto all = decode_es(bytes);
     EXPECT_EQ(all.error, "");
     EXPECT_EQ(all.events, (Events{{1, 3, 31, 1}, {317, 5, 0, 0}}));
     EXPECT_EQ(all.exposures, (Events{{3, 4, 31, 0}, {317, 4, 31, 1}}));
@@ -54,29 +55,30 @@ TEST(EsReader, reads_atis_events_apart_from_exposure_measurements) {
 }
 
 TEST(EsReader, names_the_byte_and_cause_of_what_is_wrong_in_a_header) {
-    EXPECT_EQ(decode("Event Streem").error, "a.es: byte 0: does not begin with \"Event Stream\"");
-    EXPECT_EQ(decode("Event").error, "a.es: byte 0: does not begin with \"Event Stream\"");
-    EXPECT_EQ(decode("Event Stream\x02").error, "a.es: byte 13: the file ends in its header");
-    EXPECT_EQ(decode(std::string("Event Stream\x01\x02\0", 15) + "\1abcd").error,
+    EXPECT_EQ(decode_es("Event Streem").error,
+              "a.es: byte 0: does not begin with \"Event Stream\"");
+    EXPECT_EQ(decode_es("Event").error, "a.es: byte 0: does not begin with \"Event Stream\"");
+    EXPECT_EQ(decode_es("Event Stream\x02").error, "a.es: byte 13: the file ends in its header");
+    EXPECT_EQ(decode_es(std::string("Event Stream\x01\x02\0", 15) + "\1abcd").error,
               "a.es: byte 12: version 1.2 of Event Stream is not read, only 2");
-    EXPECT_EQ(decode(header(4)).error,
+    EXPECT_EQ(decode_es(es_header(4)).error,
               "a.es: byte 15: a stream of type 4 holds neither DVS (1) nor ATIS events (2)");
-    EXPECT_EQ(decode(header(dvs, 0, 5)).error, "a.es: byte 16: the header states 0x5 pixels");
+    EXPECT_EQ(decode_es(es_header(dvs, 0, 5)).error, "a.es: byte 16: the header states 0x5 pixels");
 }
 
 TEST(EsReader, a_header_alone_is_an_empty_recording) {
-    EXPECT_EQ(decode(header(atis)).error, "");
-    EXPECT_TRUE(decode(header(atis)).events.empty());
+    EXPECT_EQ(decode_es(es_header(atis)).error, "");
+    EXPECT_TRUE(decode_es(es_header(atis)).events.empty());
 }
 
 TEST(EsReader, delivers_the_good_events_before_a_bad_one) {
-    const auto good = header(dvs) + event(2, 1, 1);
+    const auto good = es_header(dvs) + event(2, 1, 1);
     for (const auto& [bad, cause] : std::vector<std::pair<std::string, std::string>>{
              {event(2, 64, 1), "byte 25: pixel (64, 1) is outside 64x32 (y upwards)"},
              {event(2, 1, 32), "byte 25: pixel (1, 32) is outside 64x32 (y upwards)"},
              {"\xff" + event(2, 1, 1).substr(0, 3),
               "byte 26: the file ends within an event, after 3 of 5 bytes"}}) {
-        const auto all = decode(good + bad);
+        const auto all = decode_es(good + bad);
         EXPECT_EQ(all.events, (Events{{1, 1, 30, 0}}));
         EXPECT_EQ(all.error, "a.es: " + cause);
     }
@@ -127,7 +129,7 @@ TEST(EsReader, agrees_with_the_state_machine_on_random_streams_however_they_arri
     const auto below = [&](unsigned n) { return static_cast<unsigned>(random() % n); };
     for (int round = 0; round < 80; ++round) {
         const char type = round % 2 == 0 ? dvs : atis;
-        auto bytes = header(type);
+        auto bytes = es_header(type);
         const auto count = below(2000);
         const auto bad = below(2) == 0 ? below(3000) : 3000;
         for (unsigned i = 0; i < count; ++i) {
@@ -139,7 +141,7 @@ TEST(EsReader, agrees_with_the_state_machine_on_random_streams_however_they_arri
         }
         if (below(3) == 0) bytes.resize(bytes.size() - std::min(below(5), 4 * count));
         const auto expected = reference(bytes, type);
-        for (const auto& all : {decode(bytes, 1 + below(300)),
+        for (const auto& all : {decode_es(bytes, 1 + below(300)),
                                 decode_chunks("a.es", bytes, 1 + below(40), {}, 1 + below(300))}) {
             EXPECT_EQ(all.events, expected.events);
             EXPECT_EQ(all.exposures, expected.exposures);
@@ -151,12 +153,12 @@ TEST(EsReader, agrees_with_the_state_machine_on_random_streams_however_they_arri
 TEST(EsReader, on_a_live_stream_holds_back_no_event_that_has_arrived) {
     ReadOptions options;
     options.format = "es";
-    auto reader = open_events(
-        std::make_unique<ChunkSource>("live",
-                                      std::deque<std::string>{header(dvs), event(2, 1, 1) + "\xff",
-                                                              event(4, 2, 2) + "\x02\x03"},
-                                      false),
-        options);
+    auto reader = open_events(std::make_unique<ChunkSource>(
+                                  "live",
+                                  std::deque<std::string>{es_header(dvs), event(2, 1, 1) + "\xff",
+                                                          event(4, 2, 2) + "\x02\x03"},
+                                  false),
+                              options);
     ASSERT_TRUE(reader);
     std::vector<Event> events(10);
     EXPECT_EQ((*reader)->read(events, {})->events, 1U);
@@ -194,7 +196,7 @@ TEST(EsWriter, what_it_writes_is_read_back_unchanged) {
         }
         ASSERT_TRUE((*writer)->close());
         EXPECT_EQ((*writer)->exposures_written(), exposures.size());
-        const auto all = decode(test::content_of(path), 100);
+        const auto all = decode_es(test::content_of(path), 100);
         EXPECT_EQ(all.error, "");
         EXPECT_EQ(all.events, events);
         EXPECT_EQ(all.exposures, exposures);
@@ -215,7 +217,7 @@ TEST(EsWriter, refuses_what_it_cannot_hold_and_keeps_what_was_before) {
         (*writer)->write({}, Events{{11 + (std::int64_t{1} << 32), 1, 1, 0}}).error().message,
         HasSubstr("cannot hold the step of time from 11 to 4294967307 us"));
     ASSERT_TRUE((*writer)->close());
-    const auto all = decode(test::content_of(path));
+    const auto all = decode_es(test::content_of(path));
     EXPECT_EQ(all.events, events);
     EXPECT_EQ(all.exposures, (Events{{9, 1, 1, 0}}));
     EXPECT_FALSE(create_es("/dev/null", {0, 1}));
@@ -231,7 +233,7 @@ TEST(EsWriter, a_file_of_events_alone_refuses_exposures) {
 
 TEST(EsReader, the_real_atis_recording_has_its_exposures_and_survives_a_round_trip) {
     PURSUIT_DATA_OR_SKIP(car, "car/car_atis_td_em.es");
-    const auto all = decode(test::content_of(car));
+    const auto all = decode_es(test::content_of(car));
     EXPECT_EQ(all.error, "");
     EXPECT_EQ(all.events.size(), 242'040U);
     EXPECT_EQ(all.exposures.size(), 442'382U);
@@ -239,7 +241,7 @@ TEST(EsReader, the_real_atis_recording_has_its_exposures_and_survives_a_round_tr
     auto writer = create_events(folder.path("b.es"), {304, 240}, true);
     ASSERT_TRUE((*writer)->write(all.events, all.exposures));
     ASSERT_TRUE((*writer)->close());
-    const auto again = decode(test::content_of(folder.path("b.es")));
+    const auto again = decode_es(test::content_of(folder.path("b.es")));
     EXPECT_EQ(again.events, all.events);
     EXPECT_EQ(again.exposures, all.exposures);
 }

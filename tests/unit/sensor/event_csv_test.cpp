@@ -17,9 +17,9 @@ namespace {
 using testing::HasSubstr;
 using Events = std::vector<Event>;
 
-const std::string header = "# geometry 64x32\nt_us,x,y,p\n";
+const std::string csv_header = "# geometry 64x32\nt_us,x,y,p\n";
 
-ReadAll decode(const std::string& text, const ReadOptions& options = {}) {
+ReadAll decode_csv(const std::string& text, const ReadOptions& options = {}) {
     return decode_bytes("a.csv", text, options, 3);
 }
 
@@ -30,23 +30,23 @@ TEST(CsvReader, reads_its_own_header_foreign_ones_and_none) {
           "%geometry:64,32\nx,y,polarity,timestamp\n63,31,1,5\n0,0,0,6",
           "#geometry 64x32\r\n\r\n5, 63, 31, 1\r\n# remark\r\n6 ,0 ,0 ,0\r\n",
           "y,t,more,p,x\n# geometry 64x32\n31,5,abc,1,63\n0,6,,0,0\n"}) {
-        const auto all = decode(text);
+        const auto all = decode_csv(text);
         EXPECT_EQ(all.error, "") << text;
         EXPECT_EQ(all.events, expected) << text;
     }
     ReadOptions options;
     options.geometry = Geometry{64, 32};
-    EXPECT_EQ(decode("5,63,31,1\n6,0,0,0\n", options).events, expected);
+    EXPECT_EQ(decode_csv("5,63,31,1\n6,0,0,0\n", options).events, expected);
 }
 
 TEST(CsvReader, must_know_its_geometry_and_columns) {
     EXPECT_EQ(
-        decode("5,63,31,1\n").error,
+        decode_csv("5,63,31,1\n").error,
         "a.csv: byte 0: line 0: no line \"# geometry WxH\" before here states the pixels, and "
         "none are named");
     for (const std::string names : {"t,x,y", "t,x,y,p,p", "time,x,y,p", "a,b"}) {
         EXPECT_EQ(
-            decode("# geometry 64x32\n" + names + "\n").error,
+            decode_csv("# geometry 64x32\n" + names + "\n").error,
             "a.csv: byte 17: line 2: must name the columns t_us, x, y and p (or be numbers in "
             "this order)");
     }
@@ -66,7 +66,7 @@ TEST(CsvReader, names_the_line_of_what_is_wrong_and_keeps_what_was_before) {
              {"99999999999999999999,1,1,1",
               "must be 4 columns with the whole numbers t_us, x, y and p"},
              {std::string(2000, '1'), "the line is longer than 1024 bytes"}}) {
-        const auto all = decode(header + "5,1,2,1\n" + bad + "\n7,1,1,1\n");
+        const auto all = decode_csv(csv_header + "5,1,2,1\n" + bad + "\n7,1,1,1\n");
         EXPECT_EQ(all.events, (Events{{5, 1, 2, 1}}));
         EXPECT_EQ(all.error, "a.csv: byte 36: line 4: " + cause);
     }
@@ -90,11 +90,6 @@ Events random_events(std::int64_t first_us) {
                           static_cast<std::uint8_t>(random() % 2)});
     }
     return events;
-}
-
-ReadAll read_file(const std::string& path) {
-    auto reader = open_events(path);
-    return reader ? read_all(**reader) : ReadAll{{}, reader.error().message};
 }
 
 void write_file(const std::string& path, const Events& events, Geometry geometry) {

@@ -24,48 +24,50 @@ std::string bytes_of(const std::vector<std::uint16_t>& words) {
     return bytes;
 }
 
-ReadAll decode(const std::string& bytes, const ReadOptions& options = {},
-               std::size_t at_a_time = 1000) {
+ReadAll decode_raw(const std::string& bytes, const ReadOptions& options = {},
+                   std::size_t at_a_time = 1000) {
     return decode_bytes("a.raw", bytes, options, at_a_time);
 }
 
-Geometry geometry_of(const std::string& bytes) {
+Geometry raw_geometry_of(const std::string& bytes) {
     auto reader = open_events(
         from_memory("a.raw", {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}));
     return reader ? (*reader)->geometry() : Geometry{};
 }
 
 TEST(RawHeader, states_format_and_geometry_in_either_way_and_may_lack_the_geometry) {
-    EXPECT_EQ(geometry_of("% evt 2.0\n"), (Geometry{640, 480}));
-    EXPECT_EQ(geometry_of("% evt 3.0\r\n% end\r\n"), (Geometry{1280, 720}));
-    EXPECT_EQ(geometry_of("% evt 2.1\n% geometry 320x320\n% end\n"), (Geometry{320, 320}));
-    EXPECT_EQ(geometry_of("% format EVT3;height=720;width=1282\n% end\n"), (Geometry{1282, 720}));
-    EXPECT_EQ(geometry_of("% format EVT21;endianness=legacy;height=2;width=3\n"), (Geometry{3, 2}));
+    EXPECT_EQ(raw_geometry_of("% evt 2.0\n"), (Geometry{640, 480}));
+    EXPECT_EQ(raw_geometry_of("% evt 3.0\r\n% end\r\n"), (Geometry{1280, 720}));
+    EXPECT_EQ(raw_geometry_of("% evt 2.1\n% geometry 320x320\n% end\n"), (Geometry{320, 320}));
+    EXPECT_EQ(raw_geometry_of("% format EVT3;height=720;width=1282\n% end\n"),
+              (Geometry{1282, 720}));
+    EXPECT_EQ(raw_geometry_of("% format EVT21;endianness=legacy;height=2;width=3\n"),
+              (Geometry{3, 2}));
 }
 
 TEST(RawHeader, names_the_byte_and_cause_of_what_is_wrong) {
-    EXPECT_EQ(decode("% Date x\n\x2d\x8b").error,
+    EXPECT_EQ(decode_raw("% Date x\n\x2d\x8b").error,
               "a.raw: byte 9: the header ends without a line \"% evt\" or \"% format\": name the "
               "format");
-    EXPECT_EQ(decode("% evt 4.0\n").error,
+    EXPECT_EQ(decode_raw("% evt 4.0\n").error,
               "a.raw: byte 10: the header states evt 4.0; 2.0, 2.1 and 3.0 are read");
-    EXPECT_THAT(decode("% evt 3.0\n% geometry 0x5\n").error,
+    EXPECT_THAT(decode_raw("% evt 3.0\n% geometry 0x5\n").error,
                 HasSubstr("a.raw: byte 10: \"0\" x \"5\" is not a size"));
-    EXPECT_THAT(decode("% format EVT3;width=5000;height=5\n").error,
+    EXPECT_THAT(decode_raw("% format EVT3;width=5000;height=5\n").error,
                 HasSubstr("\"5000\" x \"5\" is not a size"));
     ReadOptions options;
     options.format = "evt2";
-    EXPECT_EQ(decode("% evt 3.0\n", options).error,
+    EXPECT_EQ(decode_raw("% evt 3.0\n", options).error,
               "a.raw: byte 0: the header states evt 3.0, not 2.0");
     std::string lines;
     for (int i = 0; i < 2000; ++i) lines += "% x\n";
-    EXPECT_THAT(decode(lines).error, HasSubstr("more than 1000 header lines"));
+    EXPECT_THAT(decode_raw(lines).error, HasSubstr("more than 1000 header lines"));
 }
 
 TEST(RawHeader, words_that_begin_like_a_line_are_words) {
     // 0x2025: an event at x 37; its bytes are "% ".
-    EXPECT_EQ(decode("% evt 3.0\n" + bytes_of({0x8001, 0x0007})).error, "");
-    const auto all = decode("% evt 3.0\n% geometry 64x32\n" + bytes_of({0x2025, 0x8001}));
+    EXPECT_EQ(decode_raw("% evt 3.0\n" + bytes_of({0x8001, 0x0007})).error, "");
+    const auto all = decode_raw("% evt 3.0\n% geometry 64x32\n" + bytes_of({0x2025, 0x8001}));
     EXPECT_EQ(all.error, "a.raw: byte 27: an event before the first TIME_HIGH has no time");
 }
 
@@ -76,15 +78,17 @@ std::string word2(std::uint32_t kind, std::uint32_t time, std::uint32_t x, std::
 std::string high2(std::uint32_t time) { return little_endian(0x8000'0000U | time); }
 
 TEST(Evt2Reader, reads_events_and_passes_over_what_is_none) {
-    const auto all = decode(evt2 + high2(2) + word2(1, 3, 63, 31) + word2(10, 9, 9, 9) +
-                            word2(14, 0, 0, 0) + word2(15, 0, 0, 0) + high2(3) + word2(0, 0, 0, 0));
+    const auto all =
+        decode_raw(evt2 + high2(2) + word2(1, 3, 63, 31) + word2(10, 9, 9, 9) + word2(14, 0, 0, 0) +
+                   word2(15, 0, 0, 0) + high2(3) + word2(0, 0, 0, 0));
     EXPECT_EQ(all.error, "");
     EXPECT_EQ(all.events, (Events{{131, 63, 31, 1}, {192, 0, 0, 0}}));
 }
 
 TEST(Evt2Reader, unwraps_time_where_time_high_falls_by_more_than_half_of_its_range) {
-    const auto all = decode(evt2 + high2(0xfff'ffff) + word2(1, 63, 1, 1) + high2(0) +
-                            word2(1, 0, 1, 1) + high2(0xfff'fff0) + high2(1) + word2(1, 0, 1, 1));
+    const auto all =
+        decode_raw(evt2 + high2(0xfff'ffff) + word2(1, 63, 1, 1) + high2(0) + word2(1, 0, 1, 1) +
+                   high2(0xfff'fff0) + high2(1) + word2(1, 0, 1, 1));
     EXPECT_EQ(all.error, "");
     const std::int64_t wrap = std::int64_t{1} << 34;
     EXPECT_EQ(all.events, (Events{{wrap - 1, 1, 1, 1}, {wrap, 1, 1, 1}, {2 * wrap + 64, 1, 1, 1}}));
@@ -92,12 +96,12 @@ TEST(Evt2Reader, unwraps_time_where_time_high_falls_by_more_than_half_of_its_ran
 
 TEST(Evt2Reader, an_event_before_the_first_time_is_an_error_or_skipped_where_one_joins_late) {
     const auto bytes = evt2 + word2(1, 3, 1, 1) + word2(0, 4, 1, 1) + high2(1) + word2(1, 0, 2, 2);
-    const auto strict = decode(bytes);
+    const auto strict = decode_raw(bytes);
     EXPECT_EQ(strict.error, "a.raw: byte " + std::to_string(evt2.size()) +
                                 ": an event before the first TIME_HIGH has no time");
     ReadOptions options;
     options.joined_late = true;
-    const auto late = decode(bytes, options);
+    const auto late = decode_raw(bytes, options);
     EXPECT_EQ(late.error, "");
     EXPECT_EQ(late.events, (Events{{64, 2, 2, 1}}));
     EXPECT_EQ(late.skipped, 2U);
@@ -112,11 +116,11 @@ TEST(Evt2Reader, delivers_the_good_events_before_each_kind_of_bad_one) {
              {word2(1, 2, 1, 1), "time goes back from 131 to 130 us"},
              {word2(5, 2, 1, 1), "a word of kind 5, which EVT2 does not define"},
              {"abc", "the file ends within a word, after 3 of 4 bytes"}}) {
-        const auto all = decode(good + bad);
+        const auto all = decode_raw(good + bad);
         EXPECT_EQ(all.events, (Events{{131, 1, 1, 1}}));
         EXPECT_EQ(all.error, at + cause);
     }
-    EXPECT_THAT(decode("% evt 2.0\n" + high2(2) + word2(1, 3, 640, 1)).error,
+    EXPECT_THAT(decode_raw("% evt 2.0\n" + high2(2) + word2(1, 3, 640, 1)).error,
                 HasSubstr("is outside 640x480, assumed because the header states no size"));
 }
 
@@ -162,7 +166,7 @@ TEST(Evt21Reader, reads_vectors_lowest_bit_first_in_either_order_of_halves) {
         const Events expected = {
             {131, 32, 31, 1}, {131, 34, 31, 1}, {131, 63, 31, 1}, {132, 0, 7, 0}};
         for (const std::size_t at_a_time : {1, 2, 3, 100}) {
-            const auto all = decode(bytes, {}, at_a_time);
+            const auto all = decode_raw(bytes, {}, at_a_time);
             EXPECT_EQ(all.error, "");
             EXPECT_EQ(all.events, expected);
         }
@@ -178,18 +182,18 @@ TEST(Evt21Reader, delivers_the_good_events_before_each_kind_of_bad_one) {
              {word21(1, 2, 1, 1, 1), "time goes back from 131 to 130 us"},
              {word21(5, 2, 1, 1, 1), "a word of kind 5, which EVT2.1 does not define"},
              {"abc", "the file ends within a word, after 3 of 8 bytes"}}) {
-        const auto all = decode(good + bad);
+        const auto all = decode_raw(good + bad);
         EXPECT_EQ(all.events, (Events{{131, 0, 1, 1}}));
         EXPECT_EQ(all.error, at + cause);
     }
     // A vector that runs over the edge: its pixels inside are good.
-    const auto all = decode(good + word21(1, 3, 60, 1, 0xff));
+    const auto all = decode_raw(good + word21(1, 3, 60, 1, 0xff));
     EXPECT_EQ(all.events.size(), 5U);
     EXPECT_EQ(all.error, at + "pixel (64, 1) is outside 64x32");
     ReadOptions options;
     options.joined_late = true;
-    EXPECT_EQ(decode(evt21 + word21(1, 3, 0, 1, 0xff) + high21(1), options).skipped, 8U);
-    EXPECT_THAT(decode(evt21 + word21(1, 3, 0, 1, 1)).error, HasSubstr("has no time"));
+    EXPECT_EQ(decode_raw(evt21 + word21(1, 3, 0, 1, 0xff) + high21(1), options).skipped, 8U);
+    EXPECT_THAT(decode_raw(evt21 + word21(1, 3, 0, 1, 1)).error, HasSubstr("has no time"));
 }
 
 std::uint16_t word3(unsigned kind, unsigned payload) {
@@ -205,17 +209,17 @@ TEST(Evt3Reader, reads_single_events_and_vectors) {
     const Events expected = {{4101, 63, 31, 1}, {4101, 2, 31, 1},  {4101, 13, 31, 1},
                              {4101, 15, 31, 1}, {4101, 29, 31, 1}, {4102, 0, 31, 0}};
     for (const std::size_t at_a_time : {1, 2, 100}) {
-        const auto all = decode(bytes, {}, at_a_time);
+        const auto all = decode_raw(bytes, {}, at_a_time);
         EXPECT_EQ(all.error, "");
         EXPECT_EQ(all.events, expected);
     }
 }
 
 TEST(Evt3Reader, time_follows_time_high) {
-    const auto all =
-        decode(evt3 + bytes_of({word3(0, 1), word3(8, 1), word3(6, 100), word3(6, 90), word3(2, 1),
-                                word3(8, 1), word3(2, 2), word3(8, 2), word3(2, 3), word3(8, 0xfff),
-                                word3(2, 4), word3(8, 0), word3(6, 7), word3(2, 5)}));
+    const auto all = decode_raw(
+        evt3 + bytes_of({word3(0, 1), word3(8, 1), word3(6, 100), word3(6, 90), word3(2, 1),
+                         word3(8, 1), word3(2, 2), word3(8, 2), word3(2, 3), word3(8, 0xfff),
+                         word3(2, 4), word3(8, 0), word3(6, 7), word3(2, 5)}));
     EXPECT_EQ(all.error, "");
     // A TIME_LOW that steps back is no wrap; the same TIME_HIGH again changes nothing, another one
     // begins at 0.
@@ -242,26 +246,26 @@ TEST(Evt3Reader, delivers_the_good_events_before_each_kind_of_bad_one) {
               at(size) + "a vector before the first VECT_BASE_X has no column"},
              {bytes_of({word3(9, 1)}), at(size) + "a word of kind 9, which EVT3 does not define"},
              {"a", at(size) + "the file ends within a word, after 1 of 2 bytes"}}) {
-        const auto all = decode(good + bad);
+        const auto all = decode_raw(good + bad);
         EXPECT_EQ(all.events, (Events{{4105, 1, 1, 0}}));
         EXPECT_EQ(all.error, error);
     }
-    const auto edge = decode(good + bytes_of({word3(3, 62), word3(4, 0xfff)}));
+    const auto edge = decode_raw(good + bytes_of({word3(3, 62), word3(4, 0xfff)}));
     EXPECT_EQ(edge.events.size(), 3U);
     EXPECT_EQ(edge.error, at(size + 2) + "pixel (64, 1) is outside 64x32");
 }
 
 TEST(Evt3Reader, an_event_needs_time_and_row_and_is_skipped_without_where_one_joins_late) {
-    EXPECT_THAT(decode(evt3 + bytes_of({word3(0, 1), word3(2, 1)})).error,
+    EXPECT_THAT(decode_raw(evt3 + bytes_of({word3(0, 1), word3(2, 1)})).error,
                 HasSubstr("an event before the first TIME_HIGH has no time"));
-    EXPECT_THAT(decode(evt3 + bytes_of({word3(8, 1), word3(2, 1)})).error,
+    EXPECT_THAT(decode_raw(evt3 + bytes_of({word3(8, 1), word3(2, 1)})).error,
                 HasSubstr("an event before the first ADDR_Y has no row"));
     ReadOptions options;
     options.joined_late = true;
     const auto all =
-        decode(evt3 + bytes_of({word3(2, 1), word3(4, 7), word3(0, 1), word3(6, 4), word3(8, 1),
-                                word3(2, 1), word3(6, 5), word3(4, 3), word3(2, 2)}),
-               options);
+        decode_raw(evt3 + bytes_of({word3(2, 1), word3(4, 7), word3(0, 1), word3(6, 4), word3(8, 1),
+                                    word3(2, 1), word3(6, 5), word3(4, 3), word3(2, 2)}),
+                   options);
     EXPECT_EQ(all.error, "");
     EXPECT_EQ(all.events, (Events{{4101, 2, 1, 0}}));
     EXPECT_EQ(all.skipped, 7U);
@@ -365,7 +369,7 @@ TEST(Evt3Reader, agrees_with_a_plain_decoder_on_random_streams_however_they_arri
         }
         const auto expected = reference3(words);
         const auto bytes = evt3 + bytes_of(words);
-        for (const auto& all : {decode(bytes, {}, 1 + below(500)),
+        for (const auto& all : {decode_raw(bytes, {}, 1 + below(500)),
                                 decode_chunks("a.raw", bytes, 1 + below(90), {}, 1 + below(500))}) {
             EXPECT_EQ(all.events, expected.events);
             EXPECT_EQ(all.error.empty(), expected.error.empty()) << all.error;
@@ -401,7 +405,7 @@ TEST(Evt2Reader, agrees_with_a_plain_decoder_on_random_streams_however_they_arri
                                     static_cast<std::uint8_t>(polarity)});
             }
         }
-        for (const auto& all : {decode(bytes, {}, 1 + below(500)),
+        for (const auto& all : {decode_raw(bytes, {}, 1 + below(500)),
                                 decode_chunks("a.raw", bytes, 1 + below(90), {}, 1 + below(500))}) {
             EXPECT_EQ(all.events, expected);
             EXPECT_EQ(all.error.empty(), !bad) << all.error;

@@ -59,6 +59,12 @@ inline ReadAll read_both(EventReader& reader, std::size_t at_a_time = 1000) {
     }
 }
 
+/// Everything that a file gives; also where it cannot be opened.
+inline ReadAll read_file(const std::string& path) {
+    auto reader = open_events(path);
+    return reader ? read_all(**reader) : ReadAll{{}, reader.error().message};
+}
+
 /// What bytes decode to, those before an error included; also where they cannot be opened.
 inline ReadAll decode_bytes(const std::string& name, const std::string& bytes,
                             const ReadOptions& options = {}, std::size_t at_a_time = 1000) {

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-ReadAll decode(const std::string& text, const ReadOptions& options = {}) {
+ReadAll decode_rpg(const std::string& text, const ReadOptions& options = {}) {
     auto reader = open_events(
         from_memory("a.txt", {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}),
         options);
@@ -20,7 +20,7 @@ ReadAll decode(const std::string& text, const ReadOptions& options = {}) {
 }
 
 TEST(RpgTextReader, reads_times_exactly_to_the_nearest_microsecond) {
-    const auto all = decode(
+    const auto all = decode_rpg(
         "0 1 2 0\n0.0000014 1 2 1\n0.0000015 1 2 1\n1.5 239 179 0\n"
         "1633953690.975950 3 4 1");
     EXPECT_EQ(all.error, "");
@@ -32,7 +32,7 @@ TEST(RpgTextReader, reads_times_exactly_to_the_nearest_microsecond) {
 }
 
 TEST(RpgTextReader, passes_over_empty_lines_and_remarks) {
-    EXPECT_EQ(decode("# t x y p\n\n0.1 1 2 1\r\n   \n").events,
+    EXPECT_EQ(decode_rpg("# t x y p\n\n0.1 1 2 1\r\n   \n").events,
               (std::vector<Event>{{100'000, 1, 2, 1}}));
 }
 
@@ -50,7 +50,7 @@ TEST(RpgTextReader, names_the_line_of_what_is_wrong_and_keeps_what_was_before) {
         {"0.2 1 2 7", "polarity 7 is not 0 or 1"},
         {std::string(300, '1'), "the line is longer than 256 bytes"}};
     for (const auto& [bad, cause] : cases) {
-        const auto all = decode("0.1 1 2 1\n" + bad + "\n0.3 1 1 1\n");
+        const auto all = decode_rpg("0.1 1 2 1\n" + bad + "\n0.3 1 1 1\n");
         EXPECT_EQ(all.events.size(), 1U);
         EXPECT_THAT(all.error, HasSubstr("a.txt: byte 10: line 2: "));
         EXPECT_THAT(all.error, HasSubstr(cause));

@@ -19,8 +19,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using Events = std::vector<Event>;
 
-constexpr Geometry small{24, 18};
-
 Result<std::unique_ptr<FilterChain>> chain_of(const std::vector<std::string>& texts,
                                               Geometry geometry = small) {
     std::vector<FilterSetting> settings;

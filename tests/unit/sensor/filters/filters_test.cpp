@@ -22,8 +22,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using Events = std::vector<Event>;
 
-constexpr Geometry small{24, 18};
-
 std::unique_ptr<Filter> made(const std::string& text, Geometry geometry = small) {
     auto filter = make_filter(*parse_filter(text), geometry);
     EXPECT_TRUE(filter) << filter.error().message;

@@ -9,6 +9,8 @@
 
 namespace pursuit::sensor {
 
+inline constexpr Geometry small{24, 18};
+
 /// `count` events at random pixels, in order of time, steps of 0 to 2·mean_step_us; with bursts on
 /// single pixels, so that neighbours and repeats are common.
 inline std::vector<Event> random_events(std::size_t count, Geometry geometry, unsigned seed,

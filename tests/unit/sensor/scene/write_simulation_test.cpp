@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-Scene scene_of(const std::string& text) {
+Scene parsed(const std::string& text) {
     auto scene = parse_scene(text, "test");
     if (!scene) throw std::runtime_error(scene.error().message);
     return *scene;
@@ -60,7 +60,7 @@ TEST_F(WriteSimulation, writes_truth_every_millisecond_and_all_events_in_order) 
     SimulationFiles files;
     files.truth_path = path("truth.csv");
     files.models_dir = path("models");
-    const auto summary = write_simulation(scene_of(moving_star), 3, take, files);
+    const auto summary = write_simulation(parsed(moving_star), 3, take, files);
     ASSERT_TRUE(summary) << summary.error().message;
     EXPECT_EQ(summary->events, events.size());
     EXPECT_EQ(summary->duration_us, 50000);
@@ -88,11 +88,11 @@ TEST_F(WriteSimulation, refuses_an_endless_scene_without_a_duration) {
     const auto none = [](std::span<const Event>, std::span<const Event>) -> Result<void> {
         return {};
     };
-    const auto summary = write_simulation(scene_of("name: \"endless\""), 1, none, files);
+    const auto summary = write_simulation(parsed("name: \"endless\""), 1, none, files);
     ASSERT_FALSE(summary);
     EXPECT_THAT(summary.error().message, HasSubstr("endless"));
     files.duration_s = 0.01;
-    EXPECT_TRUE(write_simulation(scene_of("name: \"endless\""), 1, none, files));
+    EXPECT_TRUE(write_simulation(parsed("name: \"endless\""), 1, none, files));
 }
 
 TEST_F(WriteSimulation, reports_a_folder_it_cannot_write_to_and_an_error_of_the_sink) {
@@ -101,20 +101,20 @@ TEST_F(WriteSimulation, reports_a_folder_it_cannot_write_to_and_an_error_of_the_
     const auto none = [](std::span<const Event>, std::span<const Event>) -> Result<void> {
         return {};
     };
-    auto summary = write_simulation(scene_of(moving_star), 1, none, files);
+    auto summary = write_simulation(parsed(moving_star), 1, none, files);
     ASSERT_FALSE(summary);
     EXPECT_THAT(summary.error().message, HasSubstr("truth.csv"));
     files.truth_path = path("truth.csv");
     const auto full = [](std::span<const Event>, std::span<const Event>) -> Result<void> {
         return fail("disk full");
     };
-    summary = write_simulation(scene_of(moving_star), 1, full, files);
+    summary = write_simulation(parsed(moving_star), 1, full, files);
     ASSERT_FALSE(summary);
     EXPECT_EQ(summary.error().message, "disk full");
 }
 
 TEST(Truth, refers_to_the_time_before_the_latency) {
-    const Scene scene = scene_of(
+    const Scene scene = parsed(
         "name: \"s\" duration_s: 1 sensor { latency_us: 3000 } layer { track: \"a\" polygon { "
         "xy_px: [0, 0, 20, 0, 20, 20, 0, 20] } trajectory { x_px: 50 y_px: 50 vx_px_s: 100 } }");
     const SceneSimulator simulator(scene, 1);
@@ -122,7 +122,7 @@ TEST(Truth, refers_to_the_time_before_the_latency) {
 }
 
 TEST(Truth, counts_a_point_outside_the_image_as_hidden) {
-    const Scene scene = scene_of(
+    const Scene scene = parsed(
         "name: \"s\" sensor { width: 64 height: 64 } layer { track: \"a\" model_points: 80 polygon "
         "{ xy_px: [-10, -10, 10, -10, 10, 10, -10, 10] } trajectory { x_px: 63.6 y_px: 32 } }");
     // Left of x = 63.5 lie the left side and half of the upper and lower ones.
@@ -130,7 +130,7 @@ TEST(Truth, counts_a_point_outside_the_image_as_hidden) {
 }
 
 TEST(Models, are_about_their_centre_of_gravity_with_every_corner_a_point) {
-    const Scene scene = scene_of(
+    const Scene scene = parsed(
         "name: \"s\" layer { track: \"a\" model_points: 40 polygon { xy_px: [0, 0, 30, 0, 30, 10, "
         "0, 10] } trajectory { x_px: 50 y_px: 60 } }");
     const SceneSimulator simulator(scene, 1);
