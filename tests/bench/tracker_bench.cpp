@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/bench/allocation_count.hpp"
 #include "tests/bench/outline_scene.hpp"
 #include "tests/bench/ratio_bench.hpp"
 
@@ -28,6 +29,7 @@ void run(benchmark::State& state, const Case& of, Events events) {
         next_period(events);
     }
     const TrackerCounters before = tracker->counters();
+    const auto allocated_before = allocations();
     for (auto unused : state) {
         tracker->process(events, poses);
         state.PauseTiming();
@@ -35,9 +37,11 @@ void run(benchmark::State& state, const Case& of, Events events) {
         poses.rows.clear();
         state.ResumeTiming();
     }
+    const auto allocated = allocations() - allocated_before;
     const TrackerCounters& after = tracker->counters();
     const auto count = static_cast<double>(after.events_in - before.events_in);
     state.counters["used"] = static_cast<double>(after.events_used - before.events_used) / count;
+    state.counters["allocations"] = static_cast<double>(allocated) / count;
     state.counters["per_event"] =
         benchmark::Counter(count, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }

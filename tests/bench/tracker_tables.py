@@ -57,6 +57,11 @@ def print_costs(runs):
         cells = [median(runs, f"{place}/{estimator}/{case}", "per_event", 1e9)
                  for estimator, place in columns]
         print(f"| {re.sub('[:_]', ' ', case)} | " + " | ".join(cells) + " |")
+    most = {name: statistics.median(run["allocations"] for run in of_case)
+            for name, of_case in runs.items() if "allocations" in of_case[0]}
+    worst = max(most, key=most.get)
+    print(f"\nallocations an event: {most[worst]:.1g} at most ({worst}), "
+          f"{statistics.median(most.values()):.1g} in the median case")
 
 
 def print_ratios(runs):
