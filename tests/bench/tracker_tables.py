@@ -65,6 +65,8 @@ def print_costs(runs):
 
 
 def print_ratios(runs):
+    if not any(name.startswith("ratio/") for name in runs):
+        return
     print("\n| points | scalar reading, ns | gradient | kalman | kalman, full affine "
           "| scalar / gradient | scalar / kalman |\n|---|---|---|---|---|---|---|")
     for name in (name for name in runs if name.startswith("ratio/scalar/")):
