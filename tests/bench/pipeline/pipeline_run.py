@@ -146,6 +146,8 @@ class Pipeline:
         end = time.monotonic() + 120
         while time.monotonic() < end:
             status = json.loads(self.ctl("status", "--json"))
+            if status["sensor"] is None or status["tracker"] is None:
+                continue  # not heard in time, on a busy machine
             done = status["tracker"]["events_in"]
             if status["sensor"]["state"] == "FINISHED" and done == before:
                 return status
