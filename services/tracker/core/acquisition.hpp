@@ -25,6 +25,7 @@ class Acquisition {
     [[nodiscard]] bool is_done() const {
         return health_.is_settled() && health_.is_good() && cover_.share() > Health::good_cover;
     }
+    [[nodiscard]] double reach_px(std::int64_t t_us) const { return estimator_.reach_px(t_us); }
     [[nodiscard]] const Pose& pose() const { return estimator_.pose(); }
     [[nodiscard]] Velocity velocity() const { return estimator_.velocity(); }
 

@@ -4,33 +4,102 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace pursuit::tracker {
 namespace {
 
 constexpr std::int64_t fold_us = 5'000;
 constexpr double far_memory_s = 0.5;
-constexpr double near_window_events = 10;
+constexpr double rise_s = 0.1;  // of what is usual on the contour
+constexpr double fall_s = 1;
+constexpr std::int64_t bin_us = 4'000;
+constexpr double bins_remembered = 40;
+constexpr double more_than_noise = 1.4;
+constexpr double surely = 12;
+
+// Of the whole contour and of a part of it: what is told first, and how much is remembered.
+constexpr double whole_first_events = 60;
+constexpr double whole_window_events = 300;
+constexpr double part_first_events = 60;
+constexpr double part_window_events = 120;
 
 }  // namespace
 
+void Clutter::Part::forget() {
+    far_events = {};
+    near_events = own_events = events = 0;
+    density = {floor, floor};
+    own_share = 1;
+    is_measured = false;
+}
+
+void Clutter::Part::close_window() {
+    const double area_px2 = std::max(far_area_px2[0] + far_area_px2[1], 1.0);
+    const double mean_density = (far_events[0] + far_events[1]) / area_px2;
+    const double prior_px2 = 0.1 * area_px2;
+    double clutter_on_contour = 0;
+    std::array<double, 2> beside{};
+    for (std::size_t side = 0; side < 2; ++side) {
+        beside[side] =
+            (far_events[side] + prior_px2 * mean_density) / (far_area_px2[side] + prior_px2);
+        clutter_on_contour += beside[side] * near_width_px[side] * near_px;
+    }
+    // The shares of events told for clutter would keep them clutter for ever: what is plainly more
+    // than the clutter beside it counts as well.
+    const double plainly_own =
+        near_events - clutter_on_contour - (is_measured ? std::sqrt(near_events) : 0);
+    const double own = std::max({own_events, plainly_own, 0.05 * events});
+    for (std::size_t side = 0; side < 2; ++side) {
+        density[side] = std::max(floor, beside[side] * near_width_px[side] / own);
+    }
+    is_measured = true;
+    own_share = std::clamp(1 - clutter_on_contour / std::max(near_events, 1.0), 0.0, 1.0);
+    // Half of what was counted stays: the window slides.
+    for (double& count : far_events) count *= 0.5;
+    near_events *= 0.5;
+    own_events *= 0.5;
+    events *= 0.5;
+}
+
 void Clutter::restart() {
-    far_events_ = {};
-    near_events_ = own_events_ = events_ = 0;
-    density_ = standing_density_ = {floor, floor};
-    own_share_ = 1;
+    whole_.forget();
+    for (Part& part : parts_) part.forget();
+    standing_density_ = {floor, floor};
+    since_near_us_ = for_more_ = for_noise_ = 0;
+    is_noise_alone_ = is_quiet_ = false;
+    usual_near_hz_ = 0;
+    bin_events_ = bin_mean_ = bin_variance_ = bins_ = 0;
+    bin_end_us_ = 0;
+    clutter_hz_ = 0;
+    remembered_ = 0;
     new_far_ = far_hz_ = {};
     near_count_ = near_time_us_ = slack_us_ = 0;
     folded_us_ = fold_at_us_ = t_us_ = 0;
 }
 
+// By the normal that points away from the model's centre.
+void Clutter::find_facings(const Contour& contour) {
+    facing_.clear();
+    has_parts_ = contour.is_outline();
+    for (const Piece& piece : contour.pieces().pieces()) {
+        Eigen::Vector2d n(piece.by - piece.ay, piece.ax - piece.bx);
+        const Eigen::Vector2d middle(piece.ax + piece.bx, piece.ay + piece.by);
+        if (n.isZero()) n = middle;
+        if (n.dot(middle) < 0) n = -n;
+        const double turns = std::atan2(n.y(), n.x()) / (2 * std::numbers::pi) + 1;
+        facing_.push_back(
+            static_cast<std::uint8_t>(std::lround(turns * facings) % std::int64_t{facings}));
+    }
+}
+
 void Clutter::sample(const Contour& contour, const Eigen::Matrix2d& a) {
+    find_facings(contour);
     const ImageMetric metric(a);
     const Eigen::Matrix2d inverse = a.inverse();
     const double reach_px = contour.radius_px() * a.norm() + far_to_px + 1;
     const double step_px = std::max(1.0, reach_px / 128);
-    std::array<double, 2> near_area_px2{};
-    far_area_px2_ = {};
+    for (Part& part : parts_) part.far_area_px2 = part.near_width_px = {};
     for (double y = -reach_px; y <= reach_px; y += step_px) {
         for (double x = -reach_px; x <= reach_px; x += step_px) {
             const Eigen::Vector2d image(x, y);
@@ -39,35 +108,90 @@ void Clutter::sample(const Contour& contour, const Eigen::Matrix2d& a) {
             if (nearest.piece < 0) continue;
             const double distance_px = std::sqrt(nearest.squared_px);
             if (distance_px > far_to_px) continue;
-            const Piece& piece = contour.pieces().pieces()[static_cast<std::size_t>(nearest.piece)];
+            const auto index = static_cast<std::size_t>(nearest.piece);
+            const Piece& piece = contour.pieces().pieces()[index];
             const Eigen::Vector2d along =
                 a * Eigen::Vector2d(piece.bx - piece.ax, piece.by - piece.ay);
             const Eigen::Vector2d from = image - a * Eigen::Vector2d(piece.ax, piece.ay);
-            const bool side = along.y() * from.x() - along.x() * from.y() > 0;
-            if (distance_px < near_px) near_area_px2[side] += step_px * step_px;
-            if (distance_px > far_from_px) far_area_px2_[side] += step_px * step_px;
+            const double length_px = along.norm();
+            const double r_px = length_px > 1e-9
+                                    ? (along.y() * from.x() - along.x() * from.y()) / length_px
+                                    : distance_px;
+            // What is past a piece's end is not counted either.
+            if (nearest.squared_px - r_px * r_px > overshoot_px * overshoot_px) continue;
+            const bool side = r_px > 0;
+            Part& part = parts_[facing_[index]];
+            const double area_px2 = step_px * step_px;
+            if (std::abs(r_px) < near_px) part.near_width_px[side] += area_px2 / near_px;
+            if (std::abs(r_px) > far_from_px) part.far_area_px2[side] += area_px2;
         }
     }
     for (std::size_t side = 0; side < 2; ++side) {
-        near_width_px_[side] = near_area_px2[side] / near_px;
-        far_area_px2_[side] = std::max(far_area_px2_[side], 1.0);
+        whole_.near_width_px[side] = whole_.far_area_px2[side] = 0;
+        for (const Part& part : parts_) {
+            whole_.near_width_px[side] += part.near_width_px[side];
+            whole_.far_area_px2[side] += part.far_area_px2[side];
+        }
+        whole_.far_area_px2[side] = std::max(whole_.far_area_px2[side], 1.0);
     }
 }
 
-void Clutter::count_far(double r_px) {
-    ++far_events_[r_px > 0];
+void Clutter::count_far(std::int32_t piece, double r_px) {
     ++new_far_[r_px > 0];
-    if (++events_ >= window_events) close_window();
+    ++bin_events_;
+    Part& part = parts_[facing_[static_cast<std::size_t>(piece)]];
+    for (Part* counted : {&whole_, &part}) {
+        ++counted->far_events[r_px > 0];
+        ++counted->events;
+    }
+    whole_.close_window_at(whole_first_events, whole_window_events);
+    part.close_window_at(part_first_events, part_window_events);
 }
 
-void Clutter::count_near(double share) {
-    own_events_ += share;
-    ++near_events_;
-    if (++near_count_ > near_window_events) {
-        near_time_us_ *= near_window_events / near_count_;
-        near_count_ = near_window_events;
+void Clutter::count_near(std::int32_t piece, double share) {
+    Part& part = parts_[facing_[static_cast<std::size_t>(piece)]];
+    for (Part* counted : {&whole_, &part}) {
+        counted->own_events += share;
+        ++counted->near_events;
+        ++counted->events;
     }
-    if (++events_ >= window_events) close_window();
+    whole_.close_window_at(whole_first_events, whole_window_events);
+    part.close_window_at(part_first_events, part_window_events);
+}
+
+// Two sequential tests (Page's) of the rate on the contour: the noise's own, or half as much again.
+void Clutter::weigh_noise() {
+    const double more =
+        std::log(more_than_noise) - (more_than_noise - 1) * clutter_hz_ * since_near_us_ * 1e-6;
+    since_near_us_ = 0;
+    for_more_ = std::max(for_more_ + more, 0.0);
+    for_noise_ = std::max(for_noise_ - more, 0.0);
+    if (!is_steady()) {
+        for_more_ = for_noise_ = 0;
+        is_noise_alone_ = false;
+    } else if (is_noise_alone_ && for_more_ > surely) {
+        is_noise_alone_ = false;
+        for_noise_ = 0;
+    } else if (!is_noise_alone_ && for_noise_ > surely) {
+        is_noise_alone_ = true;
+        for_more_ = 0;
+    }
+}
+
+void Clutter::close_bin(std::int64_t t_us) {
+    const bool is_first = bin_end_us_ == 0;
+    const std::int64_t missed_us = t_us - bin_end_us_;
+    bin_end_us_ = t_us + bin_us;
+    if (is_first || missed_us > bin_us) {  // A silence is no noise.
+        bins_ = 0;
+        bin_mean_ = bin_variance_ = bin_events_ = 0;
+        return;
+    }
+    bins_ = std::min(bins_ + 1, bins_remembered);
+    const double off = bin_events_ - bin_mean_;
+    bin_mean_ += off / bins_;
+    bin_variance_ += (off * (bin_events_ - bin_mean_) - bin_variance_) / bins_;
+    bin_events_ = 0;
 }
 
 void Clutter::fold(std::int64_t t_us) {
@@ -77,37 +201,23 @@ void Clutter::fold(std::int64_t t_us) {
     const double far_kept = std::exp(-dt_s / far_memory_s);
     const double near_hz = near_count_ / std::max(near_time_us_, 1.0) * 1e6;
     slack_us_ = 2 * near_time_us_;
+    usual_near_hz_ += (near_hz - usual_near_hz_) *
+                      std::min(dt_s / (near_hz > usual_near_hz_ ? rise_s : fall_s), 1.0);
+    is_quiet_ = near_hz < usual_near_hz_ / 4;
+    // What the memory holds of the time since the restart.
+    remembered_ = remembered_ * far_kept + (1 - far_kept);
     double clutter_hz = 0;
+    std::array<double, 2> beside_hz{};  // on the contour, per px
     for (std::size_t side = 0; side < 2; ++side) {
         far_hz_[side] = far_hz_[side] * far_kept + new_far_[side] / far_memory_s;
-        clutter_hz += far_hz_[side] / far_area_px2_[side] * near_width_px_[side] * near_px;
+        beside_hz[side] = far_hz_[side] / std::max(remembered_, 0.01) /
+                          std::max(whole_.far_area_px2[side], 1.0) * whole_.near_width_px[side];
+        clutter_hz += beside_hz[side] * near_px;
     }
+    clutter_hz_ = clutter_hz;
     const double own_hz = std::max({near_hz - clutter_hz, 0.1 * near_hz, 1e-3});
-    for (std::size_t side = 0; side < 2; ++side) {
-        standing_density_[side] =
-            far_hz_[side] / far_area_px2_[side] * near_width_px_[side] / own_hz;
-    }
+    for (std::size_t side = 0; side < 2; ++side) standing_density_[side] = beside_hz[side] / own_hz;
     new_far_ = {};
-}
-
-void Clutter::close_window() {
-    const double far_area_px2 = far_area_px2_[0] + far_area_px2_[1];
-    const double mean_density = (far_events_[0] + far_events_[1]) / far_area_px2;
-    const double prior_px2 = 0.1 * far_area_px2;
-    const double own = std::max(own_events_, 0.05 * events_);
-    double clutter_on_contour = 0;
-    for (std::size_t side = 0; side < 2; ++side) {
-        const double beside =
-            (far_events_[side] + prior_px2 * mean_density) / (far_area_px2_[side] + prior_px2);
-        density_[side] = std::max(floor, beside * near_width_px_[side] / own);
-        clutter_on_contour += beside * near_width_px_[side] * near_px;
-    }
-    own_share_ = std::clamp(1 - clutter_on_contour / std::max(near_events_, 1.0), 0.0, 1.0);
-    // Half of what was counted stays: the window slides.
-    for (double& events : far_events_) events *= 0.5;
-    near_events_ *= 0.5;
-    own_events_ *= 0.5;
-    events_ *= 0.5;
 }
 
 }  // namespace pursuit::tracker

@@ -3,19 +3,25 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <vector>
 
 #include "services/tracker/core/contour.hpp"
 
 namespace pursuit::tracker {
 
 /// How many of the events near an object's contour are not its own, measured: the density of events
-/// beside the contour, on each side, against those on it.
+/// beside the contour, on each side, against those on it; over the whole contour, and for each of
+/// eight directions that its parts face by itself. (Where the roof of a car slides along, it makes
+/// few events, and what drives past behind it many, all of them on one side.)
 class Clutter {
  public:
     static constexpr double near_px = 4;        ///< On the contour: |r| below.
     static constexpr double far_from_px = 3.5;  ///< Beside it: |r| between these two.
     static constexpr double far_to_px = 6.5;
+    static constexpr double overshoot_px = 1;  ///< Past a piece's end.
 
     void restart();
 
@@ -25,41 +31,105 @@ class Clutter {
     /// Time goes on: to be called before the events of a time are counted.
     void reach(std::int64_t t_us) {
         near_time_us_ += static_cast<double>(t_us - t_us_);
+        since_near_us_ += static_cast<double>(t_us - t_us_);
         t_us_ = t_us;
+        if (t_us >= bin_end_us_) close_bin(t_us);
         if (t_us >= fold_at_us_ || near_time_us_ > slack_us_) fold(t_us);
     }
 
-    /// An event beside the contour at signed distance r.
-    void count_far(double r_px);
-    /// An event on the contour that is the object's with probability `share`.
-    void count_near(double share);
+    /// An event beside this piece of the contour at signed distance r.
+    void count_far(std::int32_t piece, double r_px);
+    /// An event on the contour, counted or not.
+    void pass_near() {
+        weigh_noise();
+        if (++near_count_ <= near_window_events) return;
+        near_time_us_ *= near_window_events / near_count_;
+        near_count_ = near_window_events;
+    }
+    /// An event on this piece that is the object's with probability `share`.
+    void count_near(std::int32_t piece, double share);
 
-    /// Density of clutter over r at this side of the contour, 1/px, beside a density of 1 for the
+    /// Density of clutter over r at this side of the piece, 1/px, beside a density of 1 for the
     /// object's own events.
-    [[nodiscard]] double density(double r_px) const {
-        return std::max(density_[r_px > 0], standing_density_[r_px > 0]);
+    [[nodiscard]] double density(std::int32_t piece, double r_px) const {
+        const Part& part = part_of(piece);
+        const double counted = (has_parts_ && part.is_measured ? part : whole_).density[r_px > 0];
+        return is_steady() || is_quiet_ ? std::max(counted, standing_density_[r_px > 0]) : counted;
     }
 
+    /// Whether enough events were seen since the restart to tell what is clutter at all. Before it,
+    /// in noise, the first events would carry a track away.
+    [[nodiscard]] bool is_measured() const { return whole_.is_measured; }
+
     /// The measured share of the events on the contour that are the object's, 0 … 1.
-    [[nodiscard]] double own_share() const { return own_share_; }
+    [[nodiscard]] double own_share() const { return whole_.own_share; }
+
+    /// Whether what comes is noise alone: on the contour no more than beside it, and beside it as
+    /// steady as chance. (The edges of other things come and go.)
+    [[nodiscard]] bool is_noise_alone() const { return is_noise_alone_ && is_steady(); }
+
+    /// Events of clutter a second and px² beside the contour.
+    [[nodiscard]] double noise_hz_px2() const {
+        return (far_hz_[0] + far_hz_[1]) / std::max(remembered_, 0.01) /
+               (whole_.far_area_px2[0] + whole_.far_area_px2[1]);
+    }
 
  private:
-    void close_window();
-    void fold(std::int64_t t_us);
-
-    static constexpr double window_events = 300;
     static constexpr double floor = 0.002;
+    static constexpr double near_window_events = 10;
 
-    std::array<double, 2> far_area_px2_{1, 1};
-    std::array<double, 2> near_width_px_{1, 1};  // area of the near band over its width
-    std::array<double, 2> far_events_{};
-    double near_events_ = 0;
-    double own_events_ = 0;
-    double events_ = 0;
-    std::array<double, 2> density_{floor, floor};  // over the last events
+    /// Pieces of the contour, and what was counted at them; [side].
+    struct Part {
+        std::array<double, 2> far_area_px2{};
+        std::array<double, 2> near_width_px{};  // area of the near band over its width
+        std::array<double, 2> far_events{};
+        double near_events = 0;
+        double own_events = 0;
+        double events = 0;
+        std::array<double, 2> density{floor, floor};
+        double own_share = 1;
+        bool is_measured = false;
+
+        void forget();
+        void close_window();
+        void close_window_at(double first_events, double window_events) {
+            if (events >= (is_measured ? window_events : first_events)) close_window();
+        }
+    };
+    static constexpr std::size_t facings = 8;
+
+    [[nodiscard]] const Part& part_of(std::int32_t piece) const {
+        return parts_[facing_[static_cast<std::size_t>(piece)]];
+    }
+    /// As chance has it, everywhere alike; not as other things that come and go on one side.
+    [[nodiscard]] bool is_steady() const {
+        const double enough = bin_mean_ > many_events ? least_bins_of_many : least_bins;
+        if (bins_ < enough || bin_mean_ < few_events) return false;
+        const double left = far_hz_[0] * whole_.far_area_px2[1];
+        const double right = far_hz_[1] * whole_.far_area_px2[0];
+        return bin_variance_ < most_dispersion * bin_mean_ && left < most_uneven * right &&
+               right < most_uneven * left;
+    }
+    void weigh_noise();
+    void find_facings(const Contour& contour);
+    void fold(std::int64_t t_us);
+    void close_bin(std::int64_t t_us);
+
+    Part whole_;
+    std::array<Part, facings> parts_;
+    std::vector<std::uint8_t> facing_;  // of each piece
+    bool has_parts_ = false;
 
     // Over the last time. When an object stops, its events end and those beside it do not: what
     // then comes is known for clutter before enough of it was counted.
+    double since_near_us_ = 0;
+    double for_more_ = 0;  // log likelihoods that there is more than noise, and that there is not
+    double for_noise_ = 0;
+    bool is_noise_alone_ = false;
+    double usual_near_hz_ = 0;
+    bool is_quiet_ = false;  // far fewer events than usual: most are not its own
+    double clutter_hz_ = 0;
+    double remembered_ = 0;
     std::array<double, 2> new_far_{};
     std::array<double, 2> far_hz_{};
     double near_count_ = 0;    // the last ten or so on the contour …
@@ -69,7 +139,19 @@ class Clutter {
     std::int64_t folded_us_ = 0;
     std::int64_t fold_at_us_ = 0;
     std::array<double, 2> standing_density_{floor, floor};
-    double own_share_ = 1;
+
+    // Events beside the contour in bins of equal time: their mean and variance.
+    static constexpr double least_bins = 10;
+    static constexpr double least_bins_of_many = 2;
+    static constexpr double many_events = 30;
+    static constexpr double few_events = 10;
+    static constexpr double most_dispersion = 1.7;
+    static constexpr double most_uneven = 1.6;
+    double bin_events_ = 0;
+    double bin_mean_ = 0;
+    double bin_variance_ = 0;
+    double bins_ = 0;
+    std::int64_t bin_end_us_ = 0;
 };
 
 }  // namespace pursuit::tracker

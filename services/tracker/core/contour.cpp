@@ -72,6 +72,13 @@ Contour::Contour(const Shape& shape) {
     }
     gyration_px_ = std::sqrt(sum2 / static_cast<double>(points.size()));
 
+    std::vector<int> touching(shape.points_px.size(), 0);
+    for (const Edge& edge : shape.edges) {
+        ++touching[edge.from];
+        ++touching[edge.to];
+    }
+    is_outline_ = !shape.edges.empty() &&
+                  std::all_of(touching.begin(), touching.end(), [](int n) { return n == 2; });
     const std::vector<Edge> edges =
         shape.edges.empty() ? inferred_edges(shape.points_px) : shape.edges;
     std::vector<Piece> pieces;

@@ -26,11 +26,14 @@ class Contour {
     [[nodiscard]] const CandidateGrid& points() const { return points_; }
     [[nodiscard]] const CandidateGrid& pieces() const { return pieces_; }
 
+    /// Whether the shape came with closed outlines; edges out of a recording run anyhow.
+    [[nodiscard]] bool is_outline() const { return is_outline_; }
     [[nodiscard]] double length_px() const { return length_px_; }      ///< Of all pieces, model px.
     [[nodiscard]] double gyration_px() const { return gyration_px_; }  ///< Radius of gyration.
     [[nodiscard]] double radius_px() const { return radius_px_; }      ///< Of the farthest point.
 
  private:
+    bool is_outline_ = false;
     double length_px_ = 0;
     double gyration_px_ = 0;
     double radius_px_ = 0;

@@ -54,6 +54,14 @@ class Estimator {
     /// Uses the event with a weight 0 … 1; false where it came to nothing.
     virtual bool take(double weight) = 0;
 
+    /// How far from the pose's place an event until t_us can be and concern the object, px.
+    [[nodiscard]] virtual double reach_px(std::int64_t t_us) const = 0;
+
+    /// Whether what comes near the object is noise alone: it makes no events of its own.
+    /// It does not move any more, until events tell that it does.
+    virtual void stand_still() {}
+    [[nodiscard]] virtual bool sees_noise_alone() const { return false; }
+
     [[nodiscard]] virtual const Pose& pose() const = 0;
     [[nodiscard]] virtual Velocity velocity() const = 0;
 

@@ -17,6 +17,12 @@ class EventClock {
         way_time_s_ = 0;
     }
 
+    /// The rate is told anew.
+    void restart_rate() {
+        events_ = 0;
+        time_s_ = 0;
+    }
+
     /// dt_s went by.
     void wait(double dt_s) {
         time_s_ += dt_s;
@@ -32,6 +38,9 @@ class EventClock {
             events_ = window_events;
         }
     }
+
+    /// Whether enough events came since the restart to tell.
+    [[nodiscard]] bool is_told() const { return events_ >= least_events; }
 
     /// px/s, for a contour of effective length L px.
     [[nodiscard]] double speed_px_s(double length_px) const {
@@ -58,6 +67,7 @@ class EventClock {
 
  private:
     static constexpr double window_events = 40;
+    static constexpr double least_events = 10;
     static constexpr double least_way_px = 4;
     static constexpr double longest_way_s = 0.3;
 

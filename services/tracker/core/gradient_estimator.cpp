@@ -27,8 +27,8 @@ void GradientEstimator::set_parameters(const ObjectParameters& parameters) {
 
 Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     q_ = Eigen::Vector2d(event.x, event.y) - pose_.t_px;
-    const double reach_px = contour_.radius_px() * pose_.a.norm() + parameters_.gate_px;
-    if (q_.squaredNorm() > reach_px * reach_px) return {};
+    const double within_px = reach_px(event.t_us);
+    if (q_.squaredNorm() > within_px * within_px) return {};
     contour_.fit(pose_.a, parameters_.gate_px);
     const Eigen::Vector2d x = pose_.a.inverse() * q_;
     const ImageMetric metric(pose_.a);
@@ -46,6 +46,10 @@ Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     // As of events scattered by a pixel, beside a little clutter.
     return {distance_px_, 0.4 * std::exp(-0.5 * distance_px_ * distance_px_), 0.02,
             std::sqrt(on_contour.squared_px), on_contour.piece};
+}
+
+double GradientEstimator::reach_px(std::int64_t) const {
+    return contour_.radius_px() * pose_.a.norm() + parameters_.gate_px;
 }
 
 bool GradientEstimator::take(double weight) {

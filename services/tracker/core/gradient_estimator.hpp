@@ -22,6 +22,7 @@ class GradientEstimator : public Estimator {
     void set_parameters(const ObjectParameters& parameters) override;
     Approach approach(const Event& event, std::int64_t since_same_us) override;
     bool take(double weight) override;
+    [[nodiscard]] double reach_px(std::int64_t t_us) const override;
     [[nodiscard]] const Pose& pose() const override { return pose_; }
     [[nodiscard]] Velocity velocity() const override;
     void describe(std::int64_t t_us, PoseRecord& record) const override;

@@ -21,7 +21,7 @@ class Health {
     Health() = default;
 
     /// An event at this distance, of those within the gate.
-    void count(double distance_px, double gate_px, std::int64_t t_us) {
+    void count(double distance_px, double gate_px, std::int64_t t_us, bool is_noise = false) {
         if (events_ > 0) {
             const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
             recent_ *= std::exp(-dt_s / memory_s);
@@ -34,7 +34,7 @@ class Health {
         recent_ += 1;
         events_ = std::min(events_ + 1, window_events);
         const double is_sharp = distance_px < gate_px / 4 ? 1 : 0;
-        is_quiet_ = recent_ < own_rate_ / 4;
+        is_quiet_ = is_noise || recent_ < own_rate_ / 4;
         if (!is_quiet_) {
             // Over the last 17 ms where events are many: noise that hides most of them is steady.
             window_ = std::clamp(recent_ / 3, window_events, most_events);
@@ -47,10 +47,12 @@ class Health {
             return;
         }
         quiet_sharpness_ += (is_sharp - quiet_sharpness_) / window_events;
-        if (quiet_sharpness_ > good) own_rate_ = recent_;  // It moves, only slower.
+        if (!is_noise && quiet_sharpness_ > good) own_rate_ = recent_;  // It moves, only slower.
     }
 
     [[nodiscard]] double sharpness() const { return sharpness_; }
+    /// The same beside what is usual for the object, 0 … 1 and a little more.
+    [[nodiscard]] double relative_sharpness() const { return sharpness_ / usual_sharpness_; }
     /// Whether enough events came since the restart to tell.
     [[nodiscard]] bool is_settled() const { return events_ >= window_events; }
     /// Whether the last event came in a quiet time.

@@ -13,12 +13,10 @@ constexpr double first_noise_px = 0.4;       // σ of a pixel's first event of a
 constexpr double subsequent_noise_px = 0.6;  // σ of those that follow
 constexpr double tail_px2 = 1.5 * 1.5;       // variance added for the events that stray
 constexpr double tail_share = 0.2;
-constexpr double overshoot_px = 1;  // past a piece's end
 constexpr double least_share = 0.05;
 constexpr double same_edge_px = 8;  // a pixel's events within this way belong to one edge
-constexpr double lead_sigma_px = 0.3;
-constexpr double least_lead_px = -0.4;
-constexpr double most_lead_px = 0.7;
+constexpr double least_lead_px = -1.2;
+constexpr double most_lead_px = 1.6;
 constexpr double lead_drift_px2_s = 1e-3;
 
 // Of the motion.
@@ -32,6 +30,8 @@ constexpr double resumed_turn_sigma_px = 0.4;
 constexpr double resumed_speed_sigma_px_s = 5;
 constexpr double bound_settles = 0.99;  // an event: the bound of the pose's σ back to the usual
 constexpr double most_pose_sigma_px = 1.2;
+constexpr double onset_px2 = 0.5;     // variance, when it begins to move out of noise
+constexpr double onset_px_s = 200;    // σ of its speed then
 constexpr double silent_events = 10;  // expected and not come: it stands still
 
 double normal_density(double r, double variance) {
@@ -54,9 +54,12 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     Step twist_sigma = Step::Constant(start_speed_sigma_px_s * per_px);
     twist_sigma.template head<2>().setConstant(start_speed_sigma_px_s);
     filter_.restart(pose, M::twist_of(velocity), pose_sigma, twist_sigma);
-    filter_.restart_leads(lead_sigma_px);
+    filter_.restart_leads(LeadPrior::mean_px(), LeadPrior::covariance_px2());
+    lead_prior_.restart();
     clock_.restart();
     clutter_.restart();
+    stands_still_ = false;
+    backlash_.restart(contour_.pieces().pieces().size());
     noise_gain_ = 1;
     most_pose_sigma_px_ = most_pose_sigma_px;
     t_us_ = -1;
@@ -103,7 +106,7 @@ double KalmanEstimator<kind>::effective_length_px() const {
 
 template <TransformKind kind>
 void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
-    if (t_us_ < 0) t_us_ = t_us;
+    if (t_us_ < 0 || !clutter_.is_measured()) t_us_ = t_us;
     const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
     if (!(dt_s > 0)) return;
     t_us_ = t_us;
@@ -111,12 +114,29 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
 
     const double length_px = effective_length_px();
     const double gyration_px = contour_.gyration_px() * scale();
+    // Among noise alone nothing tells where it goes: it stands still until there is more.
+    const bool stood_still = stands_still_;
+    stands_still_ = clutter_.is_noise_alone();
+    if (stands_still_) {
+        filter_.slow_down(0);
+        clock_.restart_rate();
+        return;
+    }
+    if (stood_still) {
+        for (int i = 0; i < Filter::dof; ++i) {
+            const double unit = i < 2 ? 1 : 1 / (gyration_px * gyration_px);
+            filter_.add_variance(i, onset_px2 * unit);
+            filter_.add_variance(Filter::dof + i, onset_px_s * onset_px_s * unit);
+        }
+    }
     const double told_px_s = clock_.speed_px_s(length_px);
     const double own_px_s = std::sqrt(filter_.twist().template head<2>().squaredNorm() +
                                       M::turning_speed2(filter_.twist(), gyration_px));
     const double at_most = std::max(std::min(own_px_s, 2 * told_px_s), told_px_s);
     speed_px_s_ = std::sqrt(at_most * at_most + still_px_s * still_px_s);
-    const double q = kappa * kappa * speed_px_s_ * speed_px_s_ * speed_px_s_;
+    // What shows of it by half tells by half where it turns.
+    const double q =
+        kappa * kappa * speed_px_s_ * speed_px_s_ * speed_px_s_ * visible_share_ * visible_share_;
     Step noise = Step::Constant(q / (gyration_px * gyration_px));
     noise.template head<2>().setConstant(q);
     if constexpr (kind == TransformKind::similarity) noise(3) *= 0.2 * 0.2;
@@ -143,28 +163,30 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     for (int i = 0; i < Filter::dof; ++i) {
         const double unit = i < 2 ? 1 : 1 / (gyration_px * gyration_px);
         filter_.limit_variance(i, most_pose_sigma_px_ * most_pose_sigma_px_ * unit);
-        filter_.limit_variance(Filter::dof + i, speed_sigma * speed_sigma * unit);
+        if (clock_.is_told()) {
+            filter_.limit_variance(Filter::dof + i, speed_sigma * speed_sigma * unit);
+        }
     }
     for (int i = 0; i < Filter::leads; ++i) {
         filter_.add_variance(2 * Filter::dof + i, lead_drift_px2_s * dt_s);
     }
 }
 
-// Most events are nowhere near; the pose of the last near one and how far the object can have gone
-// since tell.
+// The pose of the last near event and how far the object can have gone since tell.
 template <TransformKind kind>
-bool KalmanEstimator<kind>::is_beyond(const Event& event) const {
-    if (t_us_ < 0) return false;
-    const Eigen::Vector2d off = Eigen::Vector2d(event.x, event.y) - filter_.pose().t_px;
-    const double gone_px = 2 * speed_px_s_ * static_cast<double>(event.t_us - t_us_) * 1e-6;
-    const double reach_px =
-        contour_.radius_px() * filter_.pose().a.norm() + Clutter::far_to_px + 1 + gone_px;
-    return off.squaredNorm() > reach_px * reach_px;
+double KalmanEstimator<kind>::reach_px(std::int64_t t_us) const {
+    const double gone_s = t_us_ < 0 ? 0 : static_cast<double>(t_us - t_us_) * 1e-6;
+    return contour_.radius_px() * filter_.pose().a.norm() + Clutter::far_to_px + 1 +
+           2 * speed_px_s_ * gone_s;
 }
 
 template <TransformKind kind>
 Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_same_us) {
-    if (is_beyond(event)) return {};
+    const double within_px = reach_px(event.t_us);
+    if ((Eigen::Vector2d(event.x, event.y) - filter_.pose().t_px).squaredNorm() >
+        within_px * within_px) {
+        return {};
+    }
     predict_to(event.t_us);
     const Pose& pose = filter_.pose();
     const double area = pose.a(0, 0) * pose.a(1, 1) - pose.a(0, 1) * pose.a(1, 0);
@@ -202,20 +224,23 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     }
     const double r0_px = n.dot(off);
     const double past_end2 = nearest.squared_px - r0_px * r0_px;
-    if (past_end2 > overshoot_px * overshoot_px) return {};
+    if (past_end2 > Clutter::overshoot_px * Clutter::overshoot_px) return {};
 
     const Step j = M::along(n, d, pose.a, m);
-    const double normal_px_s = j.dot(filter_.twist());
-    const double h = normal_px_s / std::sqrt(normal_px_s * normal_px_s + still_px_s * still_px_s);
+    const Eigen::Vector2d middle((piece.ax + piece.bx) / 2, (piece.ay + piece.by) / 2);
+    const double h = backlash_.gone(nearest.piece, pose.t_px + pose.a * middle, n);
     const bool subsequent = static_cast<double>(since_same_us) * 1e-6 * speed_px_s_ < same_edge_px;
     const int lead = 2 * (event.polarity & 1) + (subsequent ? 1 : 0);
     const double r_px = r0_px - filter_.lead_px()(lead) * h;
     if (std::abs(r_px) > Clutter::far_from_px && std::abs(r_px) < Clutter::far_to_px) {
-        clutter_.count_far(r_px);
+        clutter_.count_far(nearest.piece, r_px);
     }
     if (std::abs(r_px) > parameters_.gate_px) return {};
+    clutter_.pass_near();
     measured_.row = filter_.row(j, lead, h);
     measured_.r_px = r_px;
+    measured_.piece = nearest.piece;
+    measured_.lead = lead;
     const double sigma_px = subsequent ? subsequent_noise_px : first_noise_px;
     measured_.noise_px2 = sigma_px * sigma_px * noise_gain_;
 
@@ -223,25 +248,29 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     measured_.near_likelihood = (1 - tail_share) * normal_density(r_px, near_variance);
     measured_.far_likelihood = tail_share * normal_density(r_px, near_variance + tail_px2);
     return {std::abs(r_px), measured_.near_likelihood + measured_.far_likelihood,
-            clutter_.density(r_px), std::abs(r_px), nearest.piece};
+            clutter_.density(nearest.piece, r_px), std::abs(r_px), nearest.piece};
 }
 
 template <TransformKind kind>
 bool KalmanEstimator<kind>::take(double weight) {
     const double r = measured_.r_px;
     const double likelihood = measured_.near_likelihood + measured_.far_likelihood;
-    const double share = weight * likelihood / (likelihood + clutter_.density(r));
-    clutter_.count_near(share);
-    if (share < least_share) return false;
+    const double share = weight * likelihood / (likelihood + clutter_.density(measured_.piece, r));
+    const bool is_told = clutter_.is_measured();
+    clutter_.count_near(measured_.piece, share);
+    if (!is_told || stands_still_ || share < least_share) return false;
 
     // The mean of both kinds' information.
     const double near_noise = measured_.noise_px2;
     const double noise = likelihood / (measured_.near_likelihood / near_noise +
                                        measured_.far_likelihood / (near_noise + tail_px2));
     filter_.correct(measured_.row, r, measured_.row.h_p_h + noise, share);
+    if (lead_prior_.count(measured_.lead, share)) {
+        filter_.tell_leads(lead_prior_.weights(), LeadPrior::held_px, LeadPrior::held_sigma_px);
+    }
     filter_.limit_leads(least_lead_px, most_lead_px);
     const double surprise = std::min(r * r / (measured_.row.h_p_h + near_noise), 9.0) / 1.3 - 1;
-    noise_gain_ = std::clamp(noise_gain_ * (1 + 0.001 * share * surprise), 0.7, 4.0);
+    noise_gain_ = std::clamp(noise_gain_ * (1 + 0.001 * share * surprise), 0.2, 4.0);
     residual_px_ += 0.01 * share * (std::abs(r) - residual_px_);
 
     most_pose_sigma_px_ =

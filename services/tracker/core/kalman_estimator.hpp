@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "services/tracker/core/backlash.hpp"
 #include "services/tracker/core/clutter.hpp"
 #include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/event_clock.hpp"
+#include "services/tracker/core/lead_prior.hpp"
 #include "services/tracker/core/twist_filter.hpp"
 
 namespace pursuit::tracker {
 
 /// The filter: measures the signed distance of each event along the contour's normal, less the lead
-/// that events have on a moving edge. How fast the object can turn away is told by the event clock,
-/// how much of what comes is the object's by the measured clutter.
+/// that events have on a moving edge (LeadPrior, Backlash). How fast the object can turn away is
+/// told by the event clock, how much of what comes is the object's by the measured clutter.
 template <TransformKind kind>
 class KalmanEstimator : public Estimator {
  public:
@@ -23,6 +25,9 @@ class KalmanEstimator : public Estimator {
     void set_visible_share(double share) override { visible_share_ = share; }
     Approach approach(const Event& event, std::int64_t since_same_us) override;
     bool take(double weight) override;
+    [[nodiscard]] double reach_px(std::int64_t t_us) const override;
+    void stand_still() override { filter_.slow_down(0); }
+    [[nodiscard]] bool sees_noise_alone() const override { return clutter_.is_noise_alone(); }
     [[nodiscard]] const Pose& pose() const override { return filter_.pose(); }
     [[nodiscard]] Velocity velocity() const override {
         return M::velocity(filter_.twist(), filter_.pose().a);
@@ -36,7 +41,6 @@ class KalmanEstimator : public Estimator {
     using M = Motion<kind>;
     using Step = typename M::Step;
 
-    [[nodiscard]] bool is_beyond(const Event& event) const;
     void predict_to(std::int64_t t_us);
     [[nodiscard]] double scale() const;
     [[nodiscard]] double effective_length_px() const;
@@ -45,6 +49,8 @@ class KalmanEstimator : public Estimator {
     struct Measurement {
         typename Filter::Row row;
         double r_px;
+        std::int32_t piece;
+        int lead;
         double noise_px2;
         double near_likelihood;
         double far_likelihood;
@@ -55,8 +61,11 @@ class KalmanEstimator : public Estimator {
     Filter filter_;
     EventClock clock_;
     Clutter clutter_;
+    Backlash backlash_;
     Measurement measured_{};
     Pose way_begin_;
+    bool stands_still_ = false;  // among noise
+    LeadPrior lead_prior_;
     double noise_gain_ = 1;  // g_R
     double visible_share_ = 1;
     double most_pose_sigma_px_ = 0;

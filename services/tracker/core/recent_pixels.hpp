@@ -19,6 +19,13 @@ class RecentPixels {
         last_us_.assign(std::size_t{2} * geometry.width * geometry.height, -never_us);
     }
 
+    /// Soon note() is called for this event: its pixel is fetched from memory meanwhile.
+    void prefetch(const Event& event) const {
+        const std::size_t at =
+            2 * (std::size_t{event.y} * width_ + event.x) + (event.polarity & 1U);
+        if (at < last_us_.size()) __builtin_prefetch(&last_us_[at], 1);
+    }
+
     /// µs since the same pixel fired with the same polarity, and notes this event.
     std::int64_t note(const Event& event) {
         std::int64_t& last_us =

@@ -30,9 +30,11 @@ constexpr double near_log_scale = 0.1;
 constexpr double any_log_scale = 0.27;
 constexpr double adrift_px = 150;  // after a gap between streams, the usual distance
 
-// The events must speak against the pose for this long without a break: models taken from a real
-// recording, and the first moments of slow objects among noise, do so for a while.
-constexpr std::int64_t let_go_after_us = 80'000;
+// The events must speak against the pose for this long, less what they speak for it twice: models
+// taken from a real recording, and the first moments of slow objects among noise, do so for a
+// while.
+constexpr std::int64_t let_go_after_us = 60'000;
+constexpr std::int64_t longest_step_us = 20'000;
 
 // Of what shows of a moving object: below the first it is covered, above the second no more.
 constexpr double covered_share = 0.2;
@@ -105,7 +107,7 @@ void Track::restart(const RegisteredObject& object) {
     tallied_us_ = -1;
     slow_.restart();
     is_fresh_ = true;
-    against_since_us_ = -1;
+    against_us_ = 0;
     health_.restart();
     cover_->restart();
     estimator_->restart(object.start.pose, object.start.velocity);
@@ -141,7 +143,8 @@ void Track::remember_good(std::int64_t t_us) {
 
 void Track::lose_grip(std::int64_t t_us) {
     is_acquiring_ = true;
-    against_since_us_ = -1;
+    does_not_fit_ = false;
+    against_us_ = 0;
     grip_lost_us_ = t_us;
     if (good_[1].t_us < 0) good_[1].t_us = t_us;
     acquisition_began_us_ = t_us;
@@ -149,12 +152,12 @@ void Track::lose_grip(std::int64_t t_us) {
     acquisition_->begin(coasted(t_us));
 }
 
-std::int64_t Track::speaks_against_for(std::int64_t t_us) {
-    const bool against =
-        health_.is_settled() && health_.is_against(parameters_.let_go_sharpness, cover_->share());
-    if (!against) against_since_us_ = -1;
-    if (against && against_since_us_ < 0) against_since_us_ = t_us;
-    return against ? t_us - against_since_us_ : 0;
+void Track::weigh(std::int64_t t_us) {
+    const std::int64_t dt_us = std::clamp<std::int64_t>(t_us - weighed_us_, 0, longest_step_us);
+    weighed_us_ = t_us;
+    const bool is_against = health_.is_settled() && !estimator_->sees_noise_alone() &&
+                            health_.is_against(parameters_.let_go_sharpness, cover_->share());
+    against_us_ = std::max<std::int64_t>(against_us_ + (is_against ? dt_us : -2 * dt_us), 0);
 }
 
 void Track::acquire(std::int64_t t_us) {
@@ -215,28 +218,31 @@ Pose Track::pose() const {
     return is_acquiring_ ? acquisition_->pose() : estimator_->pose();
 }
 
+void Track::reach_time(std::int64_t t_us) {
+    if (is_covered_) return;
+    if (emerged_us_ >= 0 && seconds(t_us - emerged_us_) > tracker_.coast_s) give_up(t_us);
+    if (t_us < trial_until_us_) return;
+    if (is_searching_) is_acquiring_ = false;
+    const bool is_coasting = seconds(t_us - grip_lost_us_) < tracker_.coast_s;
+    if (is_acquiring_ && is_coasting && t_us - acquisition_began_us_ > acquisition_us) {
+        acquisition_began_us_ = t_us;
+        acquisition_->begin(coasted(t_us));
+    }
+}
+
+Reach Track::reach(std::int64_t t_us) const {
+    if (is_covered_ || (is_searching_ && !is_acquiring_)) return {};
+    if (is_acquiring_) return {acquisition_->pose().t_px, acquisition_->reach_px(t_us)};
+    return {estimator_->pose().t_px, estimator_->reach_px(t_us)};
+}
+
 Approach Track::approach(const Event& event, std::int64_t since_same_us) {
-    if (is_covered_) return {};
-    if (emerged_us_ >= 0 && seconds(event.t_us - emerged_us_) > tracker_.coast_s) {
-        give_up(event.t_us);
-    }
-    if (is_searching_ && event.t_us >= trial_until_us_) {
-        is_acquiring_ = false;
-        return {};
-    }
-    if (!is_acquiring_) {
-        const Approach near = estimator_->approach(event, since_same_us);
-        distance_px_ = near.contour_px;
-        piece_ = near.piece;
-        return near;
-    }
-    const bool is_coasting = seconds(event.t_us - grip_lost_us_) < tracker_.coast_s;
-    if (is_coasting && event.t_us >= trial_until_us_ &&
-        event.t_us - acquisition_began_us_ > acquisition_us) {
-        acquisition_began_us_ = event.t_us;
-        acquisition_->begin(coasted(event.t_us));
-    }
-    return acquisition_->approach(event);
+    if (is_covered_ || (is_searching_ && !is_acquiring_)) return {};
+    if (is_acquiring_) return acquisition_->approach(event);
+    const Approach near = estimator_->approach(event, since_same_us);
+    distance_px_ = near.contour_px;
+    piece_ = near.piece;
+    return near;
 }
 
 bool Track::take(const Event& event, double weight) {
@@ -245,20 +251,26 @@ bool Track::take(const Event& event, double weight) {
         acquisition_->take();
         if (acquisition_->is_done()) acquire(event.t_us);
     } else {
-        health_.count(distance_px_, parameters_.gate_px, event.t_us);
-        if (parameters_.let_go_sharpness > 0 && speaks_against_for(event.t_us) > let_go_after_us) {
+        health_.count(distance_px_, parameters_.gate_px, event.t_us,
+                      estimator_->sees_noise_alone());
+        weigh(event.t_us);
+        if (parameters_.let_go_sharpness > 0 && against_us_ > let_go_after_us) {
             lose_grip(event.t_us);
+            does_not_fit_ = !health_.is_fair();
             return false;
         }
         if (health_.is_settled() && health_.is_fair()) emerged_us_ = -1;
-        // What is left in a quiet time is mostly noise: only what fits may move the pose.
-        if (health_.is_quiet() && distance_px_ > parameters_.gate_px / 4) return false;
+        // What is left in a quiet time is mostly noise: it does not move the pose.
+        if (health_.is_quiet()) {
+            estimator_->stand_still();
+            return false;
+        }
         if (!estimator_->take(weight)) return false;
         if (piece_ >= 0 && distance_px_ < parameters_.gate_px / 4) {
             cover_->count(piece_, outline_, estimator_->pose(), estimator_->velocity());
             outline_.count(piece_, weight);
         }
-        if (health_.is_fair() && against_since_us_ < 0) remember_good(event.t_us);
+        if (health_.is_fair() && against_us_ == 0) remember_good(event.t_us);
     }
     last_event_t_us_ = event.t_us;
     ++events_used_;
@@ -351,7 +363,7 @@ void Track::cover(std::int64_t t_us) {
     if (!slow.isZero()) covered_.velocity = {slow(0), slow(1), slow(2), 0, 0};
     is_covered_ = true;
     grip_lost_us_ = t_us;
-    against_since_us_ = -1;
+    against_us_ = 0;
 }
 
 // It never came out again: it is looked for as one that was lost.
@@ -384,6 +396,8 @@ TrackState Track::state_at(std::int64_t t_us) const {
     if (is_searching_) return TrackState::searching;
     if (is_covered_ || (emerged_us_ >= 0 && !is_acquiring_)) return TrackState::occluded;
     if (!is_acquiring_) return TrackState::tracking;
+    // Hidden by what is not tracked, its events are missing; what does not fit is something else.
+    if (does_not_fit_) return TrackState::lost;
     return seconds(t_us - grip_lost_us_) < tracker_.coast_s ? TrackState::occluded
                                                             : TrackState::lost;
 }
@@ -391,9 +405,11 @@ TrackState Track::state_at(std::int64_t t_us) const {
 double Track::confidence_at(std::int64_t t_us) const {
     if (is_searching_ || is_acquiring_ || is_covered_ || emerged_us_ >= 0) return 0;
     const double sharp = std::clamp((health_.sharpness() - 0.25) / 0.4, 0.0, 1.0);
-    const double fit = std::min(sharp, std::clamp((cover_->share() - 0.4) / 0.2, 0.0, 1.0));
+    const double usual = std::clamp((health_.relative_sharpness() - 0.6) / 0.25, 0.0, 1.0);
+    const double covered = std::clamp((cover_->share() - 0.4) / 0.2, 0.0, 1.0);
+    const double fit = std::min({sharp, usual, covered});
     // What was found again is believed when it has fitted for a while.
-    const bool is_doubted = t_us - acquired_us_ < believed_after_us || against_since_us_ >= 0;
+    const bool is_doubted = t_us - acquired_us_ < believed_after_us || against_us_ > 0;
     if (is_doubted) return std::min(fit, 0.5);
     const double silent_s = seconds(t_us - health_.lively_t_us()) - sure_s;
     return silent_s > 0 ? fit * std::exp(-silent_s / doubt_s) : fit;

@@ -12,6 +12,7 @@
 #include "services/tracker/core/health.hpp"
 #include "services/tracker/core/outline.hpp"
 #include "services/tracker/core/pose_record.hpp"
+#include "services/tracker/core/reach_map.hpp"
 #include "services/tracker/core/registration.hpp"
 #include "services/tracker/core/shape_search.hpp"
 #include "services/tracker/core/silhouette.hpp"
@@ -21,14 +22,15 @@ namespace pursuit::tracker {
 
 /// One object being followed: its estimator and its life.
 ///
-///     SEARCHING ── a pose is given ──► TRACKING ── events stop matching ──► OCCLUDED
+///     SEARCHING ── a pose is given ──► TRACKING ── events are missing ──► OCCLUDED
 ///                                          ▲                                   │ coast_s
 ///                                          └──── acquired again ──── LOST ◄────┘
 ///
 /// While the events match, the estimator has them. When they stop matching, the last good pose
 /// coasts on its velocity and the acquisition has the events, from where the coast is, again and
-/// again; LOST says that coasting went on too long, and the acquisition still goes on. No events at
-/// all are no mismatch: an object that stands still stays TRACKING, with falling confidence.
+/// again; LOST says that coasting went on too long, or at once that events come as before and do
+/// not fit; the acquisition still goes on. No events at all are no mismatch: an object that stands
+/// still stays TRACKING, with falling confidence.
 ///
 /// An object that other objects cover, all but a fifth of what its motion shows of it, is OCCLUDED:
 /// it takes no events and goes on at its velocity of the last second until enough of it shows. Then
@@ -49,6 +51,11 @@ class Track {
 
     [[nodiscard]] std::uint32_t object_id() const { return object_id_; }
     [[nodiscard]] Pose pose() const;
+
+    /// Time goes on: to be called every ms or so, whether events come or not.
+    void reach_time(std::int64_t t_us);
+    /// Where events until t_us can concern the object.
+    [[nodiscard]] Reach reach(std::int64_t t_us) const;
 
     /// How near an event is. take() uses the event that approach() was asked for last.
     Approach approach(const Event& event, std::int64_t since_same_us);
@@ -104,8 +111,8 @@ class Track {
 
     void make_for(const RegisteredObject& object);
     void remember_good(std::int64_t t_us);
-    /// How long the events have spoken against the pose, now included, µs.
-    std::int64_t speaks_against_for(std::int64_t t_us);
+    /// Whether the events, now included, speak against the pose.
+    void weigh(std::int64_t t_us);
     void lose_grip(std::int64_t t_us);
     void acquire(std::int64_t t_us);
     void cover(std::int64_t t_us);
@@ -144,8 +151,10 @@ class Track {
     bool is_adrift_ = false;  // since a new stream began: it may be anywhere
     bool is_searching_ = false;
     bool is_acquiring_ = false;
-    bool is_fresh_ = true;  // since the restart no event was taken
-    std::int64_t against_since_us_ = -1;
+    bool is_fresh_ = true;         // since the restart no event was taken
+    bool does_not_fit_ = false;    // the grip was lost to events of something else
+    std::int64_t against_us_ = 0;  // for so long the events have spoken against the pose
+    std::int64_t weighed_us_ = 0;
     Coast good_[2];  // the last, and the one before: older than what made the events mismatch
     Coast covered_;
     std::int64_t grip_lost_us_ = 0;

@@ -10,6 +10,7 @@
 #include "services/tracker/core/association/strategy.hpp"
 #include "services/tracker/core/occlusion.hpp"
 #include "services/tracker/core/pose_grid.hpp"
+#include "services/tracker/core/reach_map.hpp"
 #include "services/tracker/core/recent_pixels.hpp"
 #include "services/tracker/core/registry.hpp"
 #include "services/tracker/core/seeker.hpp"
@@ -20,6 +21,11 @@ namespace {
 
 // Beyond it microseconds are no longer whole in a double; 285 years.
 constexpr std::int64_t max_t_us = std::int64_t{1} << 53;
+
+constexpr std::int64_t round_us = 500;
+
+// How far ahead of the event in hand the pixels of those to come are fetched from memory.
+constexpr std::size_t prefetched = 16;
 
 CallResult<void> check_range(std::string_view field, double value, double min, double max) {
     if (value >= min && value <= max) return {};
@@ -61,6 +67,7 @@ class Tracker::Impl {
             emit_before(changes.front().effective_time_us, sink);
             changes.front().apply();
             occlusion.restart();
+            restart_round();
             changes.pop_front();
         }
         emit_before(now_us + 1, sink);
@@ -105,34 +112,53 @@ class Tracker::Impl {
         }
         seeker.work(event.t_us, tracks);
         seeker.see(event);
+        if (event.t_us >= next_round_us) go_round(event.t_us);
 
         // The objects it may belong to, by the nearest place of each model (3.1).
         claims.clear();
         claimants.clear();
-        for (std::size_t i = 0; i < tracks.size(); ++i) {
+        reach_map.for_each(event.x, event.y, [&](std::size_t i) {
             Track& track = tracks[i];
             const Approach near = track.approach(event, since_same_us);
-            if (!near.is_within()) continue;
+            if (!near.is_within()) return;
             if (tells_occlusion && occlusion.hides(i, event, tracks)) {
                 track.deny();
-                continue;
+                return;
             }
             claims.push_back({track.object_id(), near.distance_px, near.likelihood, near.clutter});
-            claimants.push_back(&track);
-        }
+            claimants.push_back(i);
+        });
 
         // Whose it is (section 3.3), and the steps that follow from it (3.2).
         give(event);
         bool is_used = false;
         for (std::size_t i = 0; i < claims.size(); ++i) {
-            if (!(claims[i].weight > 0) || !claimants[i]->take(event, claims[i].weight)) continue;
+            if (!(claims[i].weight > 0)) continue;
+            Track& track = tracks[claimants[i]];
+            const bool is_taken = track.take(event, claims[i].weight);
+            reach_map.place(claimants[i], track.reach(next_round_us));
+            if (!is_taken) continue;
             is_used = true;
             strategy->used(event, claims[i]);
             if (options.emit_updates) {
-                sink.update({claims[i].object_id, stream_id, event.t_us, claimants[i]->pose()});
+                sink.update({claims[i].object_id, stream_id, event.t_us, track.pose()});
             }
         }
         ++(is_used ? counters.events_used : counters.events_unused);
+    }
+
+    // Every track learns what time it is, and the map where it is.
+    void go_round(std::int64_t t_us) {
+        next_round_us = t_us + round_us;
+        for (std::size_t i = 0; i < tracks.size(); ++i) {
+            tracks[i].reach_time(t_us);
+            reach_map.place(i, tracks[i].reach(next_round_us));
+        }
+    }
+
+    void restart_round() {
+        reach_map.restart(geometry, tracks.size());
+        next_round_us = 0;
     }
 
     // Sets the weights of the claims: an event that is ambiguous, near two objects or more, is the
@@ -193,11 +219,13 @@ class Tracker::Impl {
     bool tells_occlusion = true;
     Occlusion occlusion;
     Seeker seeker;
+    ReachMap reach_map;
+    std::int64_t next_round_us = 0;
 
     // Of the event in hand; kept to allocate nothing an event.
     std::vector<Claim> claims;
     std::vector<Claim> ambiguous;
-    std::vector<Track*> claimants;
+    std::vector<std::size_t> claimants;  // of the tracks
 };
 
 CallResult<Tracker> Tracker::create(const TrackerOptions& options) {
@@ -231,10 +259,13 @@ void Tracker::begin_stream(Geometry geometry, std::uint64_t stream_id) {
     impl_->seeker.restart(geometry);
     impl_->strategy->restart();
     for (Track& track : impl_->tracks) track.begin_stream();
+    impl_->restart_round();
 }
 
 void Tracker::process(std::span<const Event> events, PoseSink& sink) {
-    for (const Event& event : events) {
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        const Event& event = events[i];
+        if (i + prefetched < events.size()) impl_->recent.prefetch(events[i + prefetched]);
         ++impl_->counters.events_in;
         if (!impl_->accepts(event)) continue;
         if (event.t_us > impl_->last_t_us) impl_->reach(event.t_us, sink);

@@ -32,11 +32,14 @@ class TwistFilter {
         covariance_.diagonal().template segment<dof>(dof) = twist_sigma.cwiseAbs2();
     }
 
-    void restart_leads(double sigma_px) {
-        lead_px_.setZero();
+    using Leads = Eigen::Matrix<double, leads, 1>;
+    using LeadCovariance = Eigen::Matrix<double, leads, leads>;
+
+    void restart_leads(const Leads& mean_px, const LeadCovariance& covariance_px2) {
+        lead_px_ = mean_px;
         covariance_.template bottomRows<leads>().setZero();
         covariance_.template rightCols<leads>().setZero();
-        covariance_.diagonal().template tail<leads>().setConstant(sigma_px * sigma_px);
+        covariance_.template bottomRightCorner<leads, leads>() = covariance_px2;
     }
 
     /// dt_s later, of which it moved for moving_s; noise: the spectral density of the twist's
@@ -92,6 +95,13 @@ class TwistFilter {
         covariance_.noalias() -= gain * row.p_h.transpose();
     }
 
+    /// Corrects by what is known of the leads besides the events: weights · leads = value ± sigma.
+    void tell_leads(const Leads& weights, double value_px, double sigma_px) {
+        const State p_h = covariance_.template rightCols<leads>() * weights;
+        const double variance = weights.dot(p_h.template tail<leads>()) + sigma_px * sigma_px;
+        correct({p_h, variance}, value_px - weights.dot(lead_px_), variance, 1);
+    }
+
     /// Shrinks row and column i where its variance exceeds the bound.
     void limit_variance(int i, double bound) {
         const double variance = covariance_(i, i);
@@ -111,13 +121,13 @@ class TwistFilter {
 
     [[nodiscard]] const Pose& pose() const { return pose_; }
     [[nodiscard]] const Step& twist() const { return twist_; }
-    [[nodiscard]] const Eigen::Matrix<double, leads, 1>& lead_px() const { return lead_px_; }
+    [[nodiscard]] const Leads& lead_px() const { return lead_px_; }
     [[nodiscard]] const Covariance& covariance() const { return covariance_; }
 
  private:
     Pose pose_;
     Step twist_ = Step::Zero();
-    Eigen::Matrix<double, leads, 1> lead_px_ = Eigen::Matrix<double, leads, 1>::Zero();
+    Leads lead_px_ = Leads::Zero();
     Covariance covariance_ = Covariance::Identity();
 };
 

@@ -96,7 +96,7 @@ TEST(Life, lets_go_within_100_ms_of_an_object_that_is_replaced) {
             ASSERT_EQ(row.record.state, TrackState::tracking) << row.record.t_us;
         } else if (row.record.t_us > 900'000 && row.record.t_us < 1'000'000) {
             ASSERT_FALSE(row.record.state == TrackState::tracking && row.record.confidence > 0.5F)
-                << row.record.t_us;
+                << row.record.t_us << ' ' << row.record.confidence;
         }
     }
     EXPECT_EQ(last(poses).state, TrackState::lost);
@@ -175,15 +175,15 @@ TEST(Clutter, is_near_nothing_for_an_object_alone_and_high_in_noise) {
     Clutter clutter;
     clutter.restart();
     clutter.sample(contour, Eigen::Matrix2d::Identity());
-    for (int i = 0; i < 3000; ++i) clutter.count_near(1);
-    EXPECT_LT(clutter.density(1), 0.01);
+    for (int i = 0; i < 3000; ++i) clutter.count_near(0, 1);
+    EXPECT_LT(clutter.density(0, 1), 0.01);
     EXPECT_GT(clutter.own_share(), 0.95);
     // As many beside the contour, over 2 × 3 px, as on it, over 2 × 4: most on it is clutter too.
     for (int i = 0; i < 6000; ++i) {
-        clutter.count_near(0.3);
-        clutter.count_far(i % 2 == 0 ? 5 : -5);
+        clutter.count_near(0, 0.3);
+        clutter.count_far(0, i % 2 == 0 ? 5 : -5);
     }
-    EXPECT_GT(clutter.density(1), 0.2);
+    EXPECT_GT(clutter.density(0, 1), 0.2);
     EXPECT_LT(clutter.own_share(), 0.3);
 }
 

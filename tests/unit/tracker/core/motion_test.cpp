@@ -78,7 +78,8 @@ TYPED_TEST(MotionOf, is_filtered_as_full_matrices_would) {
     const Pose pose = a_pose(TypeParam::kind);
     Filter filter;
     filter.restart(pose, Step::Zero(), Step::Constant(0.5), Step::Constant(30));
-    filter.restart_leads(0.3);
+    filter.restart_leads(typename Filter::Leads(0.1, -0.4, 0.5, 0),
+                         0.09 * Filter::LeadCovariance::Identity());
 
     using Full = Eigen::MatrixXd;  // unrolled, the same would take a minute to compile
     Full p = filter.covariance();

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/reach_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pursuit::tracker {
+
+void ReachMap::restart(Geometry geometry, std::size_t objects) {
+    const auto cells = [](std::size_t px) { return (px >> cell_bits) + 1; };
+    columns_ = cells(geometry.width);
+    rows_ = cells(geometry.height);
+    words_ = (std::min(objects, most_objects) + 63) / 64;
+    cells_.assign(columns_ * rows_, Cell{});
+    placed_.assign(objects, Reach{});
+}
+
+void ReachMap::place(std::size_t index, const Reach& reach) {
+    Reach& placed = placed_[index];
+    if (!(reach.radius_px >= 0) || !reach.center_px.allFinite()) {
+        if (placed.radius_px >= 0) mark(index, placed, false);
+        placed = {};
+        return;
+    }
+    const double slack_px = placed.radius_px - reach.radius_px;
+    const bool is_inside =
+        slack_px >= 0 && (reach.center_px - placed.center_px).squaredNorm() <= slack_px * slack_px;
+    if (is_inside && slack_px < 4 * margin_px) return;
+    if (placed.radius_px >= 0) mark(index, placed, false);
+    placed = {reach.center_px, reach.radius_px + margin_px};
+    mark(index, placed, true);
+}
+
+// The cells that the circle's square touches.
+void ReachMap::mark(std::size_t index, const Reach& reach, bool is_there) {
+    const double cell_px = 1 << cell_bits;
+    const auto cell_of = [&](double px, std::size_t count) {
+        const double cell = std::floor(px / cell_px);
+        return std::clamp(cell, -1.0, static_cast<double>(count));
+    };
+    const auto first_x = std::max(cell_of(reach.center_px.x() - reach.radius_px, columns_), 0.0);
+    const auto first_y = std::max(cell_of(reach.center_px.y() - reach.radius_px, rows_), 0.0);
+    const auto last_x = cell_of(reach.center_px.x() + reach.radius_px, columns_);
+    const auto last_y = cell_of(reach.center_px.y() + reach.radius_px, rows_);
+    const std::uint64_t bit = std::uint64_t{1} << (index % 64);
+    for (auto y = static_cast<std::size_t>(first_y); y < rows_ && static_cast<double>(y) <= last_y;
+         ++y) {
+        for (auto x = static_cast<std::size_t>(first_x);
+             x < columns_ && static_cast<double>(x) <= last_x; ++x) {
+            std::uint64_t& word = cells_[y * columns_ + x][index / 64];
+            word = is_there ? word | bit : word & ~bit;
+        }
+    }
+}
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "services/common/event.hpp"
+
+namespace pursuit::tracker {
+
+/// Where events can concern an object; nowhere where the radius is negative.
+struct Reach {
+    Eigen::Vector2d center_px = Eigen::Vector2d::Zero();
+    double radius_px = -1;
+};
+
+/// Which objects an event can concern, by its place: a coarse map of the image. With many objects
+/// an event asks only those around it.
+///
+/// Cells of 16 px hold a bit for each object. An object is entered with a margin, and again only
+/// when it has left that: what place() costs in between is one comparison.
+class ReachMap {
+ public:
+    static constexpr std::size_t most_objects = 256;
+
+    /// Nobody is anywhere.
+    void restart(Geometry geometry, std::size_t objects);
+
+    /// Where the object of this index reaches from now on.
+    void place(std::size_t index, const Reach& reach);
+
+    /// Calls ask(index), in order, for every object that the place may concern.
+    template <typename Ask>
+    void for_each(std::uint16_t x, std::uint16_t y, const Ask& ask) const {
+        const Cell& cell = cells_[(y >> cell_bits) * columns_ + (x >> cell_bits)];
+        for (std::size_t word = 0; word < words_; ++word) {
+            for (std::uint64_t bits = cell[word]; bits != 0; bits &= bits - 1) {
+                ask(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
+            }
+        }
+    }
+
+ private:
+    using Cell = std::array<std::uint64_t, most_objects / 64>;
+
+    void mark(std::size_t index, const Reach& reach, bool is_there);
+
+    static constexpr int cell_bits = 4;
+    static constexpr double margin_px = 8;
+
+    std::size_t columns_ = 0;
+    std::size_t rows_ = 0;
+    std::size_t words_ = 0;
+    std::vector<Cell> cells_;
+    std::vector<Reach> placed_;
+};
+
+}  // namespace pursuit::tracker

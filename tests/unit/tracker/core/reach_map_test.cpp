@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/reach_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace pursuit::tracker {
+namespace {
+
+constexpr Geometry sensor{304, 240};
+
+std::vector<std::size_t> asked(const ReachMap& map, std::uint16_t x, std::uint16_t y) {
+    std::vector<std::size_t> indices;
+    map.for_each(x, y, [&](std::size_t i) { indices.push_back(i); });
+    return indices;
+}
+
+bool is_asked(const ReachMap& map, std::size_t index, std::uint16_t x, std::uint16_t y) {
+    const auto indices = asked(map, x, y);
+    return std::find(indices.begin(), indices.end(), index) != indices.end();
+}
+
+TEST(ReachMap, asks_nobody_where_nobody_was_placed) {
+    ReachMap map;
+    map.restart(sensor, 3);
+    EXPECT_TRUE(asked(map, 0, 0).empty());
+    EXPECT_TRUE(asked(map, 303, 239).empty());
+}
+
+TEST(ReachMap, asks_everybody_whose_reach_a_pixel_is_in_as_they_move_and_grow) {
+    ReachMap map;
+    constexpr std::size_t objects = 256;
+    map.restart(sensor, objects);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> x(-60, 364);
+    std::uniform_real_distribution<double> y(-60, 300);
+    std::uniform_real_distribution<double> radius(0, 50);
+    std::uniform_real_distribution<double> step(-6, 6);
+    std::vector<Reach> reaches(objects);
+    for (auto& reach : reaches) reach = {{x(random), y(random)}, radius(random)};
+    std::uniform_int_distribution<int> column(0, sensor.width - 1);
+    std::uniform_int_distribution<int> row(0, sensor.height - 1);
+    for (int round = 0; round < 40; ++round) {
+        for (std::size_t i = 0; i < objects; ++i) {
+            map.place(i, reaches[i]);
+        }
+        for (int pixel = 0; pixel < 50; ++pixel) {
+            const auto px = static_cast<std::uint16_t>(column(random));
+            const auto py = static_cast<std::uint16_t>(row(random));
+            const auto indices = asked(map, px, py);
+            EXPECT_TRUE(std::is_sorted(indices.begin(), indices.end()));
+            for (std::size_t i = 0; i < objects; ++i) {
+                const double away_px = (reaches[i].center_px - Eigen::Vector2d(px, py)).norm();
+                if (away_px <= reaches[i].radius_px) {
+                    EXPECT_TRUE(std::binary_search(indices.begin(), indices.end(), i));
+                } else if (away_px > 1.5 * (reaches[i].radius_px + 80)) {
+                    EXPECT_FALSE(std::binary_search(indices.begin(), indices.end(), i));
+                }
+            }
+        }
+        for (auto& reach : reaches) {
+            reach.center_px += Eigen::Vector2d(step(random), step(random));
+            reach.radius_px = std::max(reach.radius_px + step(random), 0.0);
+        }
+    }
+}
+
+TEST(ReachMap, asks_an_object_no_more_that_is_nowhere) {
+    ReachMap map;
+    map.restart(sensor, 1);
+    map.place(0, {{100, 100}, 20});
+    EXPECT_TRUE(is_asked(map, 0, 110, 100));
+    map.place(0, {});
+    EXPECT_FALSE(is_asked(map, 0, 110, 100));
+}
+
+TEST(ReachMap, asks_an_object_everywhere_whose_reach_is_without_end) {
+    ReachMap map;
+    map.restart(sensor, 2);
+    map.place(1, {{100, 100}, std::numeric_limits<double>::infinity()});
+    EXPECT_TRUE(is_asked(map, 1, 0, 0));
+    EXPECT_TRUE(is_asked(map, 1, 303, 239));
+}
+
+TEST(ReachMap, takes_a_place_that_is_no_number_for_nowhere) {
+    ReachMap map;
+    map.restart(sensor, 1);
+    map.place(0, {{100, 100}, 20});
+    map.place(0, {{std::numeric_limits<double>::quiet_NaN(), 100}, 20});
+    EXPECT_FALSE(is_asked(map, 0, 100, 100));
+}
+
+}  // namespace
+}  // namespace pursuit::tracker
