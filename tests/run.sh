@@ -38,8 +38,9 @@ cmake --build --preset asan --target unit_tests
 
 step "unit tests, sanitized"
 # Life.* follows objects through noise and judges where they end: that depends on the compiler's
-# rounding, and its bounds are those of the release build, which runs it below.
-GTEST_FILTER='-Life.*' ctest --test-dir build/asan -L unit --output-on-failure -j2
+# rounding, and its bounds are those of the release build, which runs it below; as it does ten million
+# steps of one loop, which say no more with sanitizers.
+GTEST_FILTER='-Life.*:Descent.*ten_million*' ctest --test-dir build/asan -L unit --output-on-failure -j2
 
 step "tests, release"
 ctest --test-dir build/release --output-on-failure -j2
