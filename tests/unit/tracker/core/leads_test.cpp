@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "services/tracker/core/backlash.hpp"
+#include "services/tracker/core/clutter.hpp"
+#include "services/tracker/core/lead_prior.hpp"
+#include "tests/unit/tracker/core/scene.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+TEST(Backlash, follows_a_way_across_the_piece_however_slow_and_not_one_along_it) {
+    Backlash backlash;
+    backlash.restart(1);
+    const Eigen::Vector2d up(0, -1);
+    EXPECT_EQ(backlash.gone(0, {10, 10}, up), 0);
+    EXPECT_NEAR(backlash.gone(0, {90, 9.85}, up), 0.5, 1e-9);
+    EXPECT_EQ(backlash.gone(0, {900, 5}, up), 1);
+    EXPECT_EQ(backlash.gone(0, {-900, 5}, up), 1);
+}
+
+TEST(Backlash, turns_to_the_other_side_within_twice_its_half_width_of_the_way_back) {
+    Backlash backlash;
+    backlash.restart(2);
+    const Eigen::Vector2d right(1, 0);
+    backlash.gone(1, {0, 0}, right);
+    EXPECT_EQ(backlash.gone(1, {3, 0}, right), 1);
+    EXPECT_NEAR(backlash.gone(1, {2.7, 0}, right), 0, 1e-9);
+    EXPECT_NEAR(backlash.gone(1, {2.4, 0}, right), -1, 1e-9);
+    EXPECT_EQ(backlash.gone(0, {2.4, 0}, right), 0);  // Each piece has its own.
+}
+
+TEST(LeadPrior, holds_the_first_leads_where_no_other_come_and_the_mean_of_all_where_they_do) {
+    LeadPrior prior;
+    EXPECT_EQ(prior.weights(), Eigen::Vector4d(1.5, 0, -0.5, 0));
+    // Two subsequent events for each first one, ON and OFF.
+    for (int i = 0; i < 30'000; ++i) {
+        prior.count(i % 3 == 0 ? 0 : 1, 1);
+        prior.count(i % 3 == 0 ? 2 : 3, 1);
+    }
+    const Eigen::Vector4d all = prior.weights();
+    EXPECT_NEAR(all(0), 1.0 / 6, 0.01);
+    EXPECT_NEAR(all(1), 1.0 / 3, 0.01);
+    EXPECT_NEAR(all.sum(), 1, 1e-9);
+}
+
+TEST(LeadPrior, expects_before_any_event_what_it_holds_later) {
+    // To half of what it is known to.
+    const double expected_px = LeadPrior().weights().dot(LeadPrior::mean_px());
+    EXPECT_NEAR(expected_px, LeadPrior::held_px, 0.06);
+}
+
+/// Events a second on the contour and beside it, drawn at random, for some time.
+void see(Clutter& clutter, double near_hz, double left_hz, double right_hz, double seconds) {
+    static std::mt19937 random(7);
+    const double all_hz = near_hz + left_hz + right_hz;
+    std::exponential_distribution<double> wait_s(all_hz);
+    std::uniform_real_distribution<double> which(0, all_hz);
+    static double t_s = 0;
+    for (const double end_s = t_s + seconds; t_s < end_s; t_s += wait_s(random)) {
+        clutter.reach(static_cast<std::int64_t>(t_s * 1e6));
+        const double drawn = which(random);
+        if (drawn < near_hz) {
+            clutter.pass_near();
+            clutter.count_near(0, 0.5);
+        } else {
+            clutter.count_far(0, drawn < near_hz + left_hz ? -5 : 5);
+        }
+    }
+}
+
+TEST(Clutter, knows_noise_alone_and_when_there_is_more) {
+    Contour contour(test::polygon("box", {{-22, -22}, {22, -22}, {22, 22}, {-22, 22}}));
+    contour.fit(Eigen::Matrix2d::Identity(), 8);
+    Clutter clutter;
+    clutter.restart();
+    clutter.sample(contour, Eigen::Matrix2d::Identity());
+    // The box is 176 px round: 3 px beside it on each side, 4 px on it; 20 events a second and px².
+    const double beside_hz = 20 * 176 * 3;
+    const double on_hz = 20 * 176 * 8;
+    see(clutter, on_hz, beside_hz, beside_hz, 0.3);
+    EXPECT_TRUE(clutter.is_noise_alone());
+    see(clutter, 2 * on_hz, beside_hz, beside_hz, 0.05);
+    EXPECT_FALSE(clutter.is_noise_alone());
+    see(clutter, on_hz, beside_hz, beside_hz, 0.3);
+    EXPECT_TRUE(clutter.is_noise_alone());
+    // What comes on one side alone is something else's edge.
+    see(clutter, on_hz, 2 * beside_hz, 0, 0.6);
+    EXPECT_FALSE(clutter.is_noise_alone());
+}
+
+}  // namespace
+}  // namespace pursuit::tracker
