@@ -80,7 +80,8 @@ service sensor "${source[@]}" "rate=$rate" wait_for_subscribers=2
 sensor=$!
 
 say "poses, live"
-ctl poses &
+# Not by ctl: what runs in the background would be its shell, and the viewer outlive it.
+"$bin/pursuitctl" poses --domain "$domain" --loopback &
 viewer=$!
 pids+=("$viewer")
 
