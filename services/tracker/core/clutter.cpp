@@ -16,7 +16,8 @@ constexpr double fall_s = 1;
 constexpr std::int64_t bin_us = 4'000;
 constexpr double bins_remembered = 40;
 constexpr double more_than_noise = 1.4;
-constexpr double surely = 12;
+const double log_more_than_noise = std::log(more_than_noise);
+constexpr double surely = 12;  // a log likelihood
 
 // Of the whole contour and of a part of it: what is told first, and how much is remembered.
 constexpr double whole_first_events = 60;
@@ -80,7 +81,6 @@ void Clutter::restart() {
 
 // By the normal that points away from the model's centre.
 void Clutter::find_facings(const Contour& contour) {
-    facing_.clear();
     has_parts_ = contour.is_outline();
     for (const Piece& piece : contour.pieces().pieces()) {
         Eigen::Vector2d n(piece.by - piece.ay, piece.ax - piece.bx);
@@ -94,7 +94,7 @@ void Clutter::find_facings(const Contour& contour) {
 }
 
 void Clutter::sample(const Contour& contour, const Eigen::Matrix2d& a) {
-    find_facings(contour);
+    if (facing_.empty()) find_facings(contour);
     const ImageMetric metric(a);
     const Eigen::Matrix2d inverse = a.inverse();
     const double reach_px = contour.radius_px() * a.norm() + far_to_px + 1;
@@ -159,10 +159,10 @@ void Clutter::count_near(std::int32_t piece, double share) {
     part.close_window_at(part_first_events, part_window_events);
 }
 
-// Two sequential tests (Page's) of the rate on the contour: the noise's own, or half as much again.
+// Two sequential tests (Page's) of the rate on the contour: the noise's own, or 1.4 times as much.
 void Clutter::weigh_noise() {
     const double more =
-        std::log(more_than_noise) - (more_than_noise - 1) * clutter_hz_ * since_near_us_ * 1e-6;
+        log_more_than_noise - (more_than_noise - 1) * clutter_hz_ * since_near_us_ * 1e-6;
     since_near_us_ = 0;
     for_more_ = std::max(for_more_ + more, 0.0);
     for_noise_ = std::max(for_noise_ - more, 0.0);

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "services/tracker/core/contour.hpp"
@@ -67,12 +65,6 @@ class Clutter {
     /// Whether what comes is noise alone: on the contour no more than beside it, and beside it as
     /// steady as chance. (The edges of other things come and go.)
     [[nodiscard]] bool is_noise_alone() const { return is_noise_alone_ && is_steady(); }
-
-    /// Events of clutter a second and px² beside the contour.
-    [[nodiscard]] double noise_hz_px2() const {
-        return (far_hz_[0] + far_hz_[1]) / std::max(remembered_, 0.01) /
-               (whole_.far_area_px2[0] + whole_.far_area_px2[1]);
-    }
 
  private:
     static constexpr double floor = 0.002;

@@ -13,14 +13,14 @@ namespace pursuit::tracker {
 ///
 /// An object that stands still makes no events, and the noise that is left says nothing about its
 /// pose: while events come at less than a quarter of the object's own rate, it is quiet, and what
-/// comes counts only if it fits.
+/// comes does not count against it.
 class Health {
  public:
     void restart(double sharpness = begin) { *this = Health(sharpness); }
 
     Health() = default;
 
-    /// An event at this distance, of those within the gate.
+    /// An event at this distance, of those within the gate; `is_noise` where noise alone comes.
     void count(double distance_px, double gate_px, std::int64_t t_us, bool is_noise = false) {
         if (events_ > 0) {
             const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;

@@ -52,7 +52,7 @@ class Track {
     [[nodiscard]] std::uint32_t object_id() const { return object_id_; }
     [[nodiscard]] Pose pose() const;
 
-    /// Time goes on: to be called every ms or so, whether events come or not.
+    /// Time goes on: to be called every half ms in which any events come, the object's or not.
     void reach_time(std::int64_t t_us);
     /// Where events until t_us can concern the object.
     [[nodiscard]] Reach reach(std::int64_t t_us) const;
