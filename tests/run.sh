@@ -47,7 +47,7 @@ step "tests, release"
 ctest --test-dir build/release --output-on-failure -j2
 
 step "skipped tests"
-skipped=$(grep -hE '^\[  SKIPPED \]|^skipped|: Skipped' build/release/Testing/Temporary/LastTest.log | sort -u || true)
+skipped=$(grep -hE '^\[  SKIPPED \]|^skipped|\.\.\. skipped|: Skipped' build/release/Testing/Temporary/LastTest.log | sort -u || true)
 echo "${skipped:-none}"
 
 step "all passed"
