@@ -9,10 +9,10 @@ namespace pursuit::tracker {
 namespace {
 
 // What stays of a window's counts when the next is closed: some 400 events are remembered.
-constexpr double kept = 0.875;
+constexpr double kept_share = 0.875;
 
 // Also a part that moves along itself makes some events.
-constexpr double sideways = 0.1;
+constexpr double sideways_share = 0.1;
 
 }  // namespace
 
@@ -72,7 +72,7 @@ void Cover::close_window(const Outline& outline, const Pose& pose, const Velocit
                                       velocity.scale_x_rate_per_s * d;
         const Eigen::Vector2d along = pose.a * part.along_px;
         const double across = std::abs(along.x() * speed.y() - along.y() * speed.x());
-        const double part_rate = across / fastest_px_s + sideways * along.norm();
+        const double part_rate = across / fastest_px_s + sideways_share * along.norm();
         rate[part.sector] += part_rate;
         sum += part_rate;
     }
@@ -86,8 +86,8 @@ void Cover::close_window(const Outline& outline, const Pose& pose, const Velocit
     double covered = 0;
     for (std::size_t i = 0; i < sectors; ++i) {
         if (counted_[i] * expected >= 0.25 * expected_[i] * counted) covered += expected_[i];
-        counted_[i] *= kept;
-        expected_[i] *= kept;
+        counted_[i] *= kept_share;
+        expected_[i] *= kept_share;
     }
     share_ = covered / std::max(expected, 1e-9);
     events_ = 0;

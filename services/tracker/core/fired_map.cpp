@@ -6,7 +6,7 @@
 namespace pursuit::tracker {
 namespace {
 
-constexpr std::size_t most_cells = 100'000;
+constexpr std::size_t most_map_cells = 100'000;
 
 }  // namespace
 
@@ -15,7 +15,7 @@ void FiredMap::build(Geometry geometry, std::span<const Event> events) {
     const auto cells = [](int length_px, int cell) { return (length_px + cell - 1) / cell; };
     while (static_cast<std::size_t>(cells(geometry.width, cell_px)) *
                static_cast<std::size_t>(cells(geometry.height, cell_px)) >
-           most_cells) {
+           most_map_cells) {
         ++cell_px;
     }
     cell_px_ = cell_px;

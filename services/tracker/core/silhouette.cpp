@@ -9,7 +9,7 @@
 namespace pursuit::tracker {
 namespace {
 
-constexpr double most_cells = 65536;
+constexpr double most_depth_cells = 65536;
 constexpr double closed_gap_px = 3;
 
 enum class Side : std::uint8_t { unknown, outside, inside };
@@ -19,7 +19,7 @@ enum class Side : std::uint8_t { unknown, outside, inside };
 Silhouette::Silhouette(const Contour& contour) {
     const CandidateGrid grid(contour.pieces().pieces(), reach_px, 1);
     const double side_px = 2 * (contour.radius_px() + 4);
-    const double cell_px = std::max(1.0, std::sqrt(side_px * side_px / most_cells));
+    const double cell_px = std::max(1.0, std::sqrt(side_px * side_px / most_depth_cells));
     cells_per_px_ = 1 / cell_px;
     left_px_ = top_px_ = -side_px / 2;
     columns_ = rows_ = static_cast<int>(side_px / cell_px) + 1;

@@ -21,7 +21,7 @@ std::unique_ptr<Strategy> plain(const Parameters&) {
     return std::make_unique<S>();
 }
 
-constexpr Line table[] = {
+constexpr Line strategy_makers[] = {
     {StrategyKind::closest, plain<Closest>},
     {StrategyKind::reject_all, plain<RejectAll>},
     {StrategyKind::update_all, plain<UpdateAll>},
@@ -40,14 +40,14 @@ constexpr Line table[] = {
 }  // namespace
 
 std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const Parameters& parameters) {
-    for (const Line& line : table) {
+    for (const Line& line : strategy_makers) {
         if (line.kind == kind) return line.make(parameters);
     }
     return nullptr;
 }
 
 bool is_supported(StrategyKind kind) {
-    for (const Line& line : table) {
+    for (const Line& line : strategy_makers) {
         if (line.kind == kind) return true;
     }
     return false;

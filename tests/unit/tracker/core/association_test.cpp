@@ -11,7 +11,7 @@
 namespace pursuit::tracker {
 namespace {
 
-constexpr Event event{1000, 5, 5, 1};
+constexpr Event any_event{1000, 5, 5, 1};
 
 std::vector<Claim> at_distances(const std::vector<double>& distances_px) {
     std::vector<Claim> claims;
@@ -21,7 +21,7 @@ std::vector<Claim> at_distances(const std::vector<double>& distances_px) {
 }
 
 std::vector<double> given(StrategyKind kind, std::vector<Claim> claims) {
-    make_strategy(kind, {})->assign(event, claims);
+    make_strategy(kind, {})->assign(any_event, claims);
     std::vector<double> weights;
     for (const Claim& claim : claims) weights.push_back(claim.weight);
     return weights;
@@ -59,7 +59,7 @@ TEST(Probabilistic, shares_by_likelihood_beside_clutter) {
     claims[0].likelihood = 0.6;
     claims[1].likelihood = 0.2;
     claims[0].clutter = claims[1].clutter = 0.2;
-    make_strategy(StrategyKind::probabilistic, {})->assign(event, claims);
+    make_strategy(StrategyKind::probabilistic, {})->assign(any_event, claims);
     // β_1 = 0.6/(0.2 + 0.8); the estimator itself has the factor 0.6/(0.2 + 0.6).
     EXPECT_DOUBLE_EQ(claims[0].weight * 0.6 / 0.8, 0.6);
     EXPECT_DOUBLE_EQ(claims[1].weight * 0.2 / 0.4, 0.2);
@@ -80,7 +80,7 @@ TEST(Temporal, gives_the_event_to_the_object_whose_next_is_due) {
     }
     for (const std::int64_t t_us : {100, 500, 900}) strategy->used({t_us, 5, 5, 1}, {2, 0});
     std::vector<Claim> claims = at_distances({2, 1});
-    strategy->assign(event, claims);
+    strategy->assign(any_event, claims);
     EXPECT_EQ(claims[0].weight, 1);
     EXPECT_EQ(claims[1].weight, 0);
     strategy->assign({1300, 5, 5, 1}, claims);
@@ -91,7 +91,7 @@ TEST(Temporal, gives_the_event_to_the_object_whose_next_is_due) {
 TEST(Temporal, gives_the_event_to_the_closest_until_it_knows_the_rates) {
     const auto strategy = make_strategy(StrategyKind::temporal, {});
     std::vector<Claim> claims = at_distances({2, 1});
-    strategy->assign(event, claims);
+    strategy->assign(any_event, claims);
     EXPECT_EQ(claims[1].weight, 1);
 }
 

@@ -14,8 +14,7 @@ using test::arrow;
 using test::outline_events;
 using test::Poses;
 using test::rms_px;
-
-constexpr Geometry geometry{304, 240};
+using test::small_sensor;
 
 struct Case {
     EstimatorKind estimator;
@@ -38,9 +37,9 @@ TEST_P(Estimating, follows_an_arrow_through_noise) {
                        0.8 * std::sin(2.5 * t_s), grow * widen, grow);
     };
     const Shape shape = arrow();
-    const auto events = outline_events(shape, truth, 0, 1'500'000, 240, 20, geometry, 11);
+    const auto events = outline_events(shape, truth, 0, 1'500'000, 240, 20, small_sensor, 11);
     Tracker tracker = std::move(*Tracker::create({}));
-    tracker.begin_stream(geometry, 1);
+    tracker.begin_stream(small_sensor, 1);
     Registration registration;
     registration.shape = shape;
     registration.transform = GetParam().transform;

@@ -14,8 +14,7 @@ using test::arrow;
 using test::outline_events;
 using test::Poses;
 using test::rms_px;
-
-constexpr Geometry geometry{304, 240};
+using test::small_sensor;
 
 Pose swinging(double t_us) {
     const double t_s = t_us * 1e-6;
@@ -25,7 +24,7 @@ Pose swinging(double t_us) {
 
 Tracker with_arrow(const Pose& start) {
     Tracker tracker = std::move(*Tracker::create({}));
-    tracker.begin_stream(geometry, 1);
+    tracker.begin_stream(small_sensor, 1);
     Registration registration;
     registration.shape = arrow();
     registration.estimator = EstimatorKind::kalman;
@@ -38,8 +37,8 @@ const PoseRecord& last(const Poses& poses) { return poses.rows.back().record; }
 
 TEST(Life, of_a_still_object_stays_tracking_with_falling_confidence) {
     const auto truth = [](double t_us) { return swinging(std::min(t_us, 500'000.0)); };
-    auto events = outline_events(arrow(), truth, 0, 500'000, 60, 5, geometry, 1);
-    const auto noise = outline_events(arrow(), truth, 500'000, 3'000'000, 0, 5, geometry, 2);
+    auto events = outline_events(arrow(), truth, 0, 500'000, 60, 5, small_sensor, 1);
+    const auto noise = outline_events(arrow(), truth, 500'000, 3'000'000, 0, 5, small_sensor, 2);
     events.insert(events.end(), noise.begin(), noise.end());
     Tracker tracker = with_arrow(truth(0));
     Poses poses;
@@ -60,7 +59,7 @@ TEST(Life, finds_an_object_that_starts_pixels_away) {
             start.t_px += off_px * Eigen::Vector2d(std::cos(direction), std::sin(direction));
             Tracker tracker = with_arrow(start);
             Poses poses;
-            tracker.process(outline_events(arrow(), swinging, 0, 1'000'000, 60, 5, geometry, 3),
+            tracker.process(outline_events(arrow(), swinging, 0, 1'000'000, 60, 5, small_sensor, 3),
                             poses);
             EXPECT_EQ(last(poses).state, TrackState::tracking) << off_px << " " << direction;
             EXPECT_LT(rms_px(arrow(), last(poses).pose, swinging(1e6)), 1)
@@ -73,7 +72,7 @@ TEST(Life, never_says_confidently_that_another_shape_is_the_object) {
     const Shape box = test::polygon("box", {{-22, -22}, {22, -22}, {22, 22}, {-22, 22}});
     Tracker tracker = with_arrow(swinging(0));
     Poses poses;
-    tracker.process(outline_events(box, swinging, 0, 2'000'000, 60, 5, geometry, 4), poses);
+    tracker.process(outline_events(box, swinging, 0, 2'000'000, 60, 5, small_sensor, 4), poses);
     int confident = 0;
     for (const auto& row : poses.rows) {
         confident += row.record.state == TrackState::tracking && row.record.confidence > 0.5F;
@@ -84,8 +83,8 @@ TEST(Life, never_says_confidently_that_another_shape_is_the_object) {
 
 TEST(Life, lets_go_within_100_ms_of_an_object_that_is_replaced) {
     const Shape box = test::polygon("box", {{-22, -22}, {22, -22}, {22, 22}, {-22, 22}});
-    auto events = outline_events(arrow(), swinging, 0, 800'000, 60, 5, geometry, 5);
-    const auto other = outline_events(box, swinging, 800'000, 2'500'000, 60, 5, geometry, 6);
+    auto events = outline_events(arrow(), swinging, 0, 800'000, 60, 5, small_sensor, 5);
+    const auto other = outline_events(box, swinging, 800'000, 2'500'000, 60, 5, small_sensor, 6);
     events.insert(events.end(), other.begin(), other.end());
     Tracker tracker = with_arrow(swinging(0));
     Poses poses;
@@ -104,9 +103,9 @@ TEST(Life, lets_go_within_100_ms_of_an_object_that_is_replaced) {
 
 TEST(Life, goes_on_after_a_gap_in_the_stream) {
     for (const std::int64_t gap_us : {5'000, 40'000, 90'000}) {
-        auto events = outline_events(arrow(), swinging, 0, 700'000, 60, 5, geometry, 7);
+        auto events = outline_events(arrow(), swinging, 0, 700'000, 60, 5, small_sensor, 7);
         const auto after =
-            outline_events(arrow(), swinging, 700'000 + gap_us, 1'500'000, 60, 5, geometry, 8);
+            outline_events(arrow(), swinging, 700'000 + gap_us, 1'500'000, 60, 5, small_sensor, 8);
         events.insert(events.end(), after.begin(), after.end());
         Tracker tracker = with_arrow(swinging(0));
         Poses poses;
@@ -119,14 +118,14 @@ TEST(Life, goes_on_after_a_gap_in_the_stream) {
 TEST(Life, finds_its_object_again_in_a_new_stream_around_the_last_pose) {
     Tracker tracker = with_arrow(swinging(0));
     Poses poses;
-    tracker.process(outline_events(arrow(), swinging, 0, 600'000, 60, 5, geometry, 9), poses);
+    tracker.process(outline_events(arrow(), swinging, 0, 600'000, 60, 5, small_sensor, 9), poses);
     ASSERT_EQ(last(poses).state, TrackState::tracking);
     ASSERT_TRUE(tracker.snapshots()[0].was_tracked);
     EXPECT_LT(rms_px(arrow(), tracker.snapshots()[0].pose, swinging(6e5)), 2);
-    tracker.begin_stream(geometry, 2);
+    tracker.begin_stream(small_sensor, 2);
     Poses again;
     const auto later = [](double t_us) { return swinging(t_us + 620'000); };
-    tracker.process(outline_events(arrow(), later, 0, 500'000, 60, 5, geometry, 10), again);
+    tracker.process(outline_events(arrow(), later, 0, 500'000, 60, 5, small_sensor, 10), again);
     ASSERT_FALSE(again.rows.empty());
     EXPECT_EQ(again.rows.front().record.state, TrackState::occluded);
     EXPECT_EQ(last(again).state, TrackState::tracking);

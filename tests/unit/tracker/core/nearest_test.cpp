@@ -51,9 +51,9 @@ Eigen::Matrix2d random_a(TransformKind kind, Random& random) {
 
 // Fewer where the sanitizers make each one slow.
 #ifdef NDEBUG
-constexpr int poses = 100;
+constexpr int poses_tried = 100;
 #else
-constexpr int poses = 5;
+constexpr int poses_tried = 5;
 #endif
 constexpr int queries_a_pose = 10'000;
 
@@ -64,7 +64,7 @@ TEST_P(Nearest, equals_the_exhaustive_search_on_a_million_random_queries) {
     Random random(42);
     Contour contour(test::arrow());
     int found = 0;
-    for (int pose = 0; pose < poses; ++pose) {
+    for (int pose = 0; pose < poses_tried; ++pose) {
         const Eigen::Matrix2d a = random_a(GetParam(), random);
         contour.fit(a, reach_px);
         const ImageMetric metric(a);
@@ -85,7 +85,7 @@ TEST_P(Nearest, equals_the_exhaustive_search_on_a_million_random_queries) {
             }
         }
     }
-    EXPECT_GT(found, poses * queries_a_pose / 10);
+    EXPECT_GT(found, poses_tried * queries_a_pose / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryTransform, Nearest,

@@ -12,8 +12,7 @@ namespace {
 using test::outline_events;
 using test::Poses;
 using test::rms_px;
-
-constexpr Geometry geometry{304, 240};
+using test::small_sensor;
 
 /// A small arrow that goes right at 60 px/s, and a wide box that stands over its way from t 1 s on.
 class HiddenArrow : public ::testing::Test {
@@ -26,9 +25,9 @@ class HiddenArrow : public ::testing::Test {
 
     /// What is seen: the box whole, of the arrow what lies outside the box.
     static std::vector<Event> seen(std::int64_t to_us) {
-        auto events = outline_events(box(), box_at, 0, to_us, 40, 0, geometry, 1);
+        auto events = outline_events(box(), box_at, 0, to_us, 40, 0, small_sensor, 1);
         for (const Event& event :
-             outline_events(test::arrow(), arrow_at, 0, to_us, 40, 0, geometry, 2)) {
+             outline_events(test::arrow(), arrow_at, 0, to_us, 40, 0, small_sensor, 2)) {
             const Eigen::Vector2d m =
                 Eigen::Vector2d(event.x, event.y) - box_at(static_cast<double>(event.t_us)).t_px;
             if (std::abs(m.x()) > 70 || std::abs(m.y()) > 50) events.push_back(event);
@@ -47,7 +46,7 @@ class HiddenArrow : public ::testing::Test {
         ASSERT_TRUE(tracker_.register_object(registration));
     }
     void begin(double depth_of_arrow, double depth_of_box) {
-        tracker_.begin_stream(geometry, 1);
+        tracker_.begin_stream(small_sensor, 1);
         add(test::arrow(), arrow_at(0), depth_of_arrow);
         add(box(), box_at(0), depth_of_box);
     }
@@ -100,12 +99,12 @@ TEST_F(HiddenArrow, is_not_left_frozen_when_occlusion_is_no_more_told) {
 }
 
 TEST_F(HiddenArrow, is_lost_when_it_does_not_come_out_again) {
-    tracker_.begin_stream(geometry, 1);
+    tracker_.begin_stream(small_sensor, 1);
     add(test::arrow(), arrow_at(0), 2);
     add(box(), box_at(0), 1);
     // It stops under the box, where nobody sees it.
     auto events = seen(2'400'000);
-    const auto alone = outline_events(box(), box_at, 2'400'000, 7'500'000, 40, 0, geometry, 3);
+    const auto alone = outline_events(box(), box_at, 2'400'000, 7'500'000, 40, 0, small_sensor, 3);
     events.insert(events.end(), alone.begin(), alone.end());
     tracker_.process(events, poses_);
     EXPECT_EQ(poses_.rows.back().record.object_id, 2U);

@@ -8,10 +8,12 @@
 #include <random>
 #include <vector>
 
+#include "tests/unit/tracker/core/scene.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
-constexpr Geometry sensor{304, 240};
+using test::small_sensor;
 
 std::vector<std::size_t> asked(const ReachMap& map, std::uint16_t x, std::uint16_t y) {
     std::vector<std::size_t> indices;
@@ -26,7 +28,7 @@ bool is_asked(const ReachMap& map, std::size_t index, std::uint16_t x, std::uint
 
 TEST(ReachMap, asks_nobody_where_nobody_was_placed) {
     ReachMap map;
-    map.restart(sensor, 3);
+    map.restart(small_sensor, 3);
     EXPECT_TRUE(asked(map, 0, 0).empty());
     EXPECT_TRUE(asked(map, 303, 239).empty());
 }
@@ -34,7 +36,7 @@ TEST(ReachMap, asks_nobody_where_nobody_was_placed) {
 TEST(ReachMap, asks_everybody_whose_reach_a_pixel_is_in_as_they_move_and_grow) {
     ReachMap map;
     constexpr std::size_t objects = 256;
-    map.restart(sensor, objects);
+    map.restart(small_sensor, objects);
     std::mt19937 random(4);
     std::uniform_real_distribution<double> x(-60, 364);
     std::uniform_real_distribution<double> y(-60, 300);
@@ -42,8 +44,8 @@ TEST(ReachMap, asks_everybody_whose_reach_a_pixel_is_in_as_they_move_and_grow) {
     std::uniform_real_distribution<double> step(-6, 6);
     std::vector<Reach> reaches(objects);
     for (auto& reach : reaches) reach = {{x(random), y(random)}, radius(random)};
-    std::uniform_int_distribution<int> column(0, sensor.width - 1);
-    std::uniform_int_distribution<int> row(0, sensor.height - 1);
+    std::uniform_int_distribution<int> column(0, small_sensor.width - 1);
+    std::uniform_int_distribution<int> row(0, small_sensor.height - 1);
     for (int round = 0; round < 40; ++round) {
         for (std::size_t i = 0; i < objects; ++i) {
             map.place(i, reaches[i]);
@@ -71,7 +73,7 @@ TEST(ReachMap, asks_everybody_whose_reach_a_pixel_is_in_as_they_move_and_grow) {
 
 TEST(ReachMap, asks_an_object_no_more_that_is_nowhere) {
     ReachMap map;
-    map.restart(sensor, 1);
+    map.restart(small_sensor, 1);
     map.place(0, {{100, 100}, 20});
     EXPECT_TRUE(is_asked(map, 0, 110, 100));
     map.place(0, {});
@@ -80,7 +82,7 @@ TEST(ReachMap, asks_an_object_no_more_that_is_nowhere) {
 
 TEST(ReachMap, asks_an_object_everywhere_whose_reach_is_without_end) {
     ReachMap map;
-    map.restart(sensor, 2);
+    map.restart(small_sensor, 2);
     map.place(1, {{100, 100}, std::numeric_limits<double>::infinity()});
     EXPECT_TRUE(is_asked(map, 1, 0, 0));
     EXPECT_TRUE(is_asked(map, 1, 303, 239));
@@ -88,7 +90,7 @@ TEST(ReachMap, asks_an_object_everywhere_whose_reach_is_without_end) {
 
 TEST(ReachMap, takes_a_place_that_is_no_number_for_nowhere) {
     ReachMap map;
-    map.restart(sensor, 1);
+    map.restart(small_sensor, 1);
     map.place(0, {{100, 100}, 20});
     map.place(0, {{std::numeric_limits<double>::quiet_NaN(), 100}, 20});
     EXPECT_FALSE(is_asked(map, 0, 100, 100));

@@ -12,6 +12,9 @@
 
 namespace pursuit::tracker::test {
 
+/// The geometry of a small sensor.
+inline constexpr Geometry small_sensor{304, 240};
+
 /// Keeps what the tracker hands over.
 struct Poses : PoseSink {
     struct Row {

@@ -9,14 +9,14 @@
 namespace pursuit::tracker {
 namespace {
 
-constexpr Geometry geometry{304, 240};
+using test::small_sensor;
 
 /// The outline's pixels under a pose, and `noise` pixels anywhere.
 std::vector<Event> fired(const Shape& shape, const Pose& pose, int noise, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::vector<Event> events;
     const auto put = [&](double x, double y) {
-        if (x < 0 || y < 0 || x > geometry.width - 1 || y > geometry.height - 1) return;
+        if (x < 0 || y < 0 || x > small_sensor.width - 1 || y > small_sensor.height - 1) return;
         events.push_back({0, static_cast<std::uint16_t>(std::lround(x)),
                           static_cast<std::uint16_t>(std::lround(y)), 1});
     };
@@ -27,8 +27,8 @@ std::vector<Event> fired(const Shape& shape, const Pose& pose, int noise, std::u
         put(p.x(), p.y());
     }
     for (int i = 0; i < noise; ++i) {
-        put(static_cast<double>(random() % geometry.width),
-            static_cast<double>(random() % geometry.height));
+        put(static_cast<double>(random() % small_sensor.width),
+            static_cast<double>(random() % small_sensor.height));
     }
     return events;
 }
@@ -36,7 +36,7 @@ std::vector<Event> fired(const Shape& shape, const Pose& pose, int noise, std::u
 std::optional<ShapeSearch::Found> search(const Shape& shape, const std::vector<Event>& events,
                                          const SearchRange& range, int slice = 1 << 30) {
     FiredMap map;
-    map.build(geometry, events);
+    map.build(small_sensor, events);
     ShapeSearch search{Contour(shape)};
     search.begin(map, range);
     while (!search.is_done()) search.step(slice);
@@ -61,7 +61,7 @@ TEST(FiredMap, has_the_chamfer_distance_to_the_nearest_pixel_that_fired) {
                           static_cast<std::uint16_t>(random() % 240), 1});
     }
     FiredMap map;
-    map.build(geometry, events);
+    map.build(small_sensor, events);
     for (int y = 0; y < 240; y += 7) {
         for (int x = 0; x < 304; x += 5) {
             int best = FiredMap::farthest;
@@ -134,7 +134,7 @@ TEST(Search, finds_a_registered_shape_that_enters_and_then_follows_it) {
         return pose_of(20 + 150e-6 * t_us, 100 + 20e-6 * t_us, 0.8, 1, 1);
     };
     Tracker tracker = std::move(*Tracker::create({}));
-    tracker.begin_stream(geometry, 1);
+    tracker.begin_stream(small_sensor, 1);
     Registration registration;
     registration.shape = arrow;
     registration.transform = TransformKind::similarity;
@@ -143,7 +143,7 @@ TEST(Search, finds_a_registered_shape_that_enters_and_then_follows_it) {
     ASSERT_TRUE(tracker.register_object(registration));
     test::Poses poses;
     // Half in view at the start.
-    tracker.process(test::outline_events(arrow, truth, 0, 800'000, 60, 5, geometry, 1), poses);
+    tracker.process(test::outline_events(arrow, truth, 0, 800'000, 60, 5, small_sensor, 1), poses);
     std::int64_t found_us = -1;
     for (const auto& row : poses.rows) {
         const double off_px =

@@ -10,14 +10,13 @@ namespace {
 
 using test::arrow;
 using test::Poses;
+using test::small_sensor;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr Geometry geometry{304, 240};
-
 Tracker make_tracker(TrackerOptions options = {}) {
     Tracker tracker = std::move(*Tracker::create(options));
-    tracker.begin_stream(geometry, 7);
+    tracker.begin_stream(small_sensor, 7);
     return tracker;
 }
 

@@ -13,8 +13,7 @@ namespace {
 using test::arrow;
 using test::outline_events;
 using test::Poses;
-
-constexpr Geometry geometry{304, 240};
+using test::small_sensor;
 
 Registration at(const std::string& name, double x_px, double y_px) {
     Registration registration;
@@ -26,7 +25,7 @@ Registration at(const std::string& name, double x_px, double y_px) {
 std::vector<Event> moving_arrow(std::uint32_t seed) {
     return outline_events(
         arrow(), [](double t_us) { return pose_of(100 + 2e-4 * t_us, 100, 0); }, 3'210, 100'000, 20,
-        5, geometry, seed);
+        5, small_sensor, seed);
 }
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
@@ -52,7 +51,7 @@ void expect_same(const Poses& a, const Poses& b) {
 
 TEST(TrackerGrid, lies_on_multiples_of_the_period_after_the_first_event) {
     Tracker tracker = std::move(*Tracker::create({}));
-    tracker.begin_stream(geometry, 1);
+    tracker.begin_stream(small_sensor, 1);
     ASSERT_TRUE(tracker.register_object(at("a", 100, 100)));
     Poses poses;
     tracker.advance(2000, poses);
@@ -68,7 +67,7 @@ TEST(TrackerGrid, lies_on_multiples_of_the_period_after_the_first_event) {
 
 TEST(TrackerGrid, holds_the_state_after_the_last_event_before_its_time) {
     Tracker tracker = std::move(*Tracker::create({}));
-    tracker.begin_stream(geometry, 1);
+    tracker.begin_stream(small_sensor, 1);
     ASSERT_TRUE(tracker.register_object(at("a", 100, 100)));
     const Shape shape = arrow();
     const auto x = static_cast<std::uint16_t>(std::lround(100 + shape.points_px[0].x()));
@@ -89,7 +88,7 @@ TEST(TrackerGrid, is_the_same_bit_for_bit_however_the_events_are_cut) {
     ASSERT_GT(events.size(), 500U);
     const auto run = [&](std::uint32_t seed) {
         Tracker tracker = std::move(*Tracker::create({}));
-        tracker.begin_stream(geometry, 1);
+        tracker.begin_stream(small_sensor, 1);
         EXPECT_TRUE(tracker.register_object(at("a", 101, 99)));
         EXPECT_TRUE(tracker.register_object(at("b", 140, 110)));
         Poses poses;
@@ -116,7 +115,7 @@ TEST(TrackerGrid, is_the_same_bit_for_bit_however_the_events_are_cut) {
 
 TEST(TrackerGrid, is_thinned_evenly_beyond_the_cap_and_counts_what_is_left_out) {
     Tracker tracker = std::move(*Tracker::create({.max_poses_per_s = 1500}));
-    tracker.begin_stream(geometry, 1);
+    tracker.begin_stream(small_sensor, 1);
     for (const char* name : {"a", "b", "c", "d"}) {
         ASSERT_TRUE(tracker.register_object(at(name, 100, 100)));
     }
@@ -143,7 +142,7 @@ TEST(TrackerGrid, is_thinned_evenly_beyond_the_cap_and_counts_what_is_left_out) 
 TEST(TrackerGrid, keeps_a_burst_bounded_when_time_jumps_by_hours_or_years) {
     for (const std::int64_t jump_us : {std::int64_t{7'200'000'000}, std::int64_t{1} << 52}) {
         Tracker tracker = std::move(*Tracker::create({}));
-        tracker.begin_stream(geometry, 1);
+        tracker.begin_stream(small_sensor, 1);
         ASSERT_TRUE(tracker.register_object(at("a", 100, 100)));
         Poses poses;
         const std::vector<Event> before{{0, 1, 1, 1}};
@@ -158,12 +157,12 @@ TEST(TrackerGrid, keeps_a_burst_bounded_when_time_jumps_by_hours_or_years) {
 
 TEST(TrackerGrid, begins_anew_with_a_new_stream_and_keeps_the_poses) {
     Tracker tracker = std::move(*Tracker::create({}));
-    tracker.begin_stream(geometry, 1);
+    tracker.begin_stream(small_sensor, 1);
     ASSERT_TRUE(tracker.register_object(at("a", 100, 100)));
     Poses poses;
     tracker.process(moving_arrow(3), poses);
     const Eigen::Vector2d last_px = poses.rows.back().record.pose.t_px;
-    tracker.begin_stream(geometry, 2);
+    tracker.begin_stream(small_sensor, 2);
     EXPECT_EQ(tracker.last_t_us(), -1);
     Poses again;
     const std::vector<Event> events{{10, 0, 0, 1}, {1000, 0, 0, 1}};
@@ -175,7 +174,7 @@ TEST(TrackerGrid, begins_anew_with_a_new_stream_and_keeps_the_poses) {
 
 TEST(TrackerGrid, hands_over_every_step_where_wanted) {
     Tracker tracker = std::move(*Tracker::create({.emit_updates = true}));
-    tracker.begin_stream(geometry, 1);
+    tracker.begin_stream(small_sensor, 1);
     ASSERT_TRUE(tracker.register_object(at("a", 100, 100)));
     Poses poses;
     tracker.process(moving_arrow(3), poses);
