@@ -21,10 +21,14 @@ ObjectParameters arriving(ObjectParameters parameters) {
 }  // namespace
 
 Acquisition::Acquisition(const RegisteredObject& object)
-    : parameters_(arriving(object.parameters)),
-      estimator_(object.transform, object.shape, parameters_, GradientEstimator::Pull::contour),
-      outline_(Contour(object.shape)),
-      cover_(Contour(object.shape)) {}
+    : Acquisition(object.transform, Contour(object.shape), object.parameters) {}
+
+Acquisition::Acquisition(TransformKind transform, const Contour& contour,
+                         const ObjectParameters& parameters)
+    : parameters_(arriving(parameters)),
+      estimator_(transform, contour, parameters_, GradientEstimator::Pull::contour),
+      outline_(contour),
+      cover_(contour) {}
 
 void Acquisition::begin(const Pose& pose, double gate_px) {
     estimator_.restart(pose, {});

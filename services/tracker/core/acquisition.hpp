@@ -11,7 +11,9 @@ namespace pursuit::tracker {
 /// residuals are large, pulling along the whole contour. Done when what comes lies on the contour.
 class Acquisition {
  public:
-    Acquisition(const RegisteredObject& object);
+    explicit Acquisition(const RegisteredObject& object);
+    Acquisition(TransformKind transform, const Contour& contour,
+                const ObjectParameters& parameters);
 
     void begin(const Pose& pose) { begin(pose, widest_gate_px); }
     /// From a pose that is known to a third of the gate or so.

@@ -2,20 +2,168 @@
 #include "services/tracker/core/candidate_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace pursuit::tracker {
 namespace {
 
-constexpr double finest_cell_px = 1.5;
 constexpr double most_cells = 65536;
+// What a bound must be passed by to be passed: places on a cell's rim may be rounded into it.
+constexpr double hair = 1e-8;
+
+struct Place {
+    double x, y;
+};
+
+double squared(const Place& l, const Place& r) {
+    return (l.x - r.x) * (l.x - r.x) + (l.y - r.y) * (l.y - r.y);
+}
+
+/// The place of a piece that is nearest to another place.
+Place foot(const Piece& piece, const Place& place) {
+    const double at = piece.foot(place.x, place.y, ImageMetric());
+    return {piece.ax + at * (piece.bx - piece.ax), piece.ay + at * (piece.by - piece.ay)};
+}
 
 }  // namespace
 
+/// Quarters a square of cells down to one, passing on only the pieces that can still be the nearest
+/// from somewhere in it.
+///
+/// A piece cannot where a place of another piece is nearer from everywhere in the square. For a
+/// place o of another and each place p of the piece that is so when it is so from the square's
+/// corners: what is nearer to o than to p is a half plane. Under other metrics it is, too, where it
+/// holds by a margin:
+///  - by the anisotropy κ as a factor: |x−p| ≥ κ|x−o| is a disc about o, convex as well; or
+///  - −u·w ≥ s·|u||w| with u = p−o, w = x−(p+o)/2, s = (κ²−1)/(κ²+1): a cone of x. No metric turns
+///    a direction by more than asin s (Wielandt), so the image has u and w at an obtuse angle
+///    still.
+struct CandidateGrid::Divider {
+    CandidateGrid& grid;
+    std::vector<std::uint16_t> last_list;
+    std::uint32_t last_at = 0;
+
+    using List = std::vector<std::uint16_t>;
+
+    /// A piece seen from a square: from its centre and its corners.
+    static constexpr std::size_t places = 5;
+    struct View {
+        std::array<double, places> squared_px;
+        std::array<Place, places> foot;
+    };
+    using Square = std::array<Place, places>;
+
+    void divide(int column, int row, int size, const List& candidates) {
+        if (column >= grid.columns_ || row >= grid.rows_) return;
+        const double half_px = size / grid.cells_per_px_ / 2 * (1 + hair) + hair;
+        const Place centre{grid.left_px_ + (column + size / 2.0) / grid.cells_per_px_,
+                           grid.top_px_ + (row + size / 2.0) / grid.cells_per_px_};
+        const Square square{centre, Place{centre.x - half_px, centre.y - half_px},
+                            Place{centre.x + half_px, centre.y - half_px},
+                            Place{centre.x - half_px, centre.y + half_px},
+                            Place{centre.x + half_px, centre.y + half_px}};
+        std::vector<View> views(candidates.size());
+        std::array<std::size_t, places> nearest{};
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            views[i] = view(grid.pieces_[candidates[i]], square);
+            for (std::size_t k = 0; k < places; ++k) {
+                if (views[i].squared_px[k] < views[nearest[k]].squared_px[k]) nearest[k] = i;
+            }
+        }
+        const double beyond_px = grid.reach_px_ + half_px * std::sqrt(2.0);
+        if (views[nearest[0]].squared_px[0] > beyond_px * beyond_px) return;
+        List kept;
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            bool is_beaten = false;
+            for (std::size_t k = 0; k < places && !is_beaten; ++k) {
+                is_beaten = nearest[k] != i && beats(views[nearest[k]].foot[k],
+                                                     grid.pieces_[candidates[i]], views[i], square);
+            }
+            if (!is_beaten) kept.push_back(candidates[i]);
+        }
+        if (size == 1 || kept.size() == 1) {
+            fill(column, row, size, kept);
+            return;
+        }
+        const int half = size / 2;
+        divide(column, row, half, kept);
+        divide(column + half, row, half, kept);
+        divide(column, row + half, half, kept);
+        divide(column + half, row + half, half, kept);
+    }
+
+    static View view(const Piece& piece, const Square& square) {
+        View view{};
+        for (std::size_t k = 0; k < places; ++k) {
+            view.foot[k] = foot(piece, square[k]);
+            view.squared_px[k] = squared(view.foot[k], square[k]);
+        }
+        return view;
+    }
+
+    [[nodiscard]] bool beats(const Place& by, const Piece& piece, const View& view,
+                             const Square& square) const {
+        const double ratio2 = grid.anisotropy_ * grid.anisotropy_;
+        std::array<double, places> by2{};
+        bool by_factor = true;
+        for (std::size_t k = 1; k < places; ++k) {
+            by2[k] = squared(by, square[k]);
+            const double own2 = view.squared_px[k];
+            by_factor &= own2 > ratio2 * by2[k] + hair * (own2 + 1);
+        }
+        if (by_factor) return true;
+
+        const double s = (ratio2 - 1) / (ratio2 + 1);
+        const Place a{piece.ax, piece.ay};
+        const Place b{piece.bx, piece.by};
+        const Place a_middle{(a.x + by.x) / 2, (a.y + by.y) / 2};
+        const Place b_middle{(b.x + by.x) / 2, (b.y + by.y) / 2};
+        const double u2 = std::max(squared(a, by), squared(b, by));
+        for (std::size_t k = 1; k < places; ++k) {
+            const double own2 = view.squared_px[k];
+            const double room2 = own2 - by2[k] - hair * (own2 + 1);
+            const double w2 = std::max(squared(a_middle, square[k]), squared(b_middle, square[k]));
+            if (!(room2 > 0 && room2 * room2 > 4 * s * s * u2 * w2)) return false;
+        }
+        return true;
+    }
+
+    void fill(int column, int row, int size, const List& kept) {
+        if (kept != last_list || last_at == 0) {
+            last_list = kept;
+            last_at = static_cast<std::uint32_t>(grid.listed_.size());
+            grid.listed_.push_back(static_cast<std::uint16_t>(kept.size()));
+            grid.listed_.insert(grid.listed_.end(), kept.begin(), kept.end());
+        }
+        for (int y = row; y < std::min(row + size, grid.rows_); ++y) {
+            for (int x = column; x < std::min(column + size, grid.columns_); ++x) {
+                grid.list_of_[static_cast<std::size_t>(y) *
+                                  static_cast<std::size_t>(grid.columns_) +
+                              static_cast<std::size_t>(x)] = last_at;
+            }
+        }
+    }
+};
+
+CandidateGrid::CandidateGrid(std::vector<Piece> pieces, double finest_cell_px)
+    : pieces_(std::move(pieces)), finest_cell_px_(finest_cell_px) {
+    are_points_ = true;
+    for (const Piece& piece : pieces_) {
+        sides_.push_back({piece.ax, piece.ay, piece.bx - piece.ax, piece.by - piece.ay});
+        are_points_ &= piece.ax == piece.bx && piece.ay == piece.by;
+    }
+}
+
 CandidateGrid::CandidateGrid(std::vector<Piece> pieces, double reach_px, double anisotropy)
-    : pieces_(std::move(pieces)), reach_px_(reach_px), anisotropy_(anisotropy) {
+    : CandidateGrid(std::move(pieces)) {
+    build(reach_px, anisotropy);
+}
+
+void CandidateGrid::build(double reach_px, double anisotropy) {
+    reach_px_ = reach_px;
+    anisotropy_ = anisotropy;
     double right_px = -1e300;
     double bottom_px = -1e300;
     left_px_ = top_px_ = 1e300;
@@ -29,71 +177,28 @@ CandidateGrid::CandidateGrid(std::vector<Piece> pieces, double reach_px, double 
     top_px_ -= reach_px;
     const double width_px = right_px + reach_px - left_px_;
     const double height_px = bottom_px + reach_px - top_px_;
-    const double cell_px = std::max(finest_cell_px, std::sqrt(width_px * height_px / most_cells));
+    const double cell_px = std::max(finest_cell_px_, std::sqrt(width_px * height_px / most_cells));
     cells_per_px_ = 1 / cell_px;
     columns_ = static_cast<int>(width_px / cell_px) + 1;
     rows_ = static_cast<int>(height_px / cell_px) + 1;
+    list_of_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
+    listed_.assign(1, 0);  // the list of nothing
 
     std::vector<std::uint16_t> all(pieces_.size());
     std::iota(all.begin(), all.end(), std::uint16_t{0});
-    std::vector<std::vector<std::uint16_t>> cells(static_cast<std::size_t>(columns_) *
-                                                  static_cast<std::size_t>(rows_));
     int size = 1;
     while (size < std::max(columns_, rows_)) size *= 2;
-    divide(0, 0, size, all, cells);
-
-    first_.reserve(cells.size() + 1);
-    for (const auto& cell : cells) {
-        first_.push_back(static_cast<std::uint32_t>(listed_.size()));
-        listed_.insert(listed_.end(), cell.begin(), cell.end());
-    }
-    first_.push_back(static_cast<std::uint32_t>(listed_.size()));
-}
-
-// Quarters a square of cells down to one, passing on only the pieces that can still be the nearest.
-void CandidateGrid::divide(int column, int row, int size,
-                           const std::vector<std::uint16_t>& candidates,
-                           std::vector<std::vector<std::uint16_t>>& cells) const {
-    if (column >= columns_ || row >= rows_) return;
-    const double side_px = size / cells_per_px_;
-    const double x = left_px_ + column / cells_per_px_ + side_px / 2;
-    const double y = top_px_ + row / cells_per_px_ + side_px / 2;
-    // A hair more than half the diagonal: a place on the rim may be rounded into the cell.
-    const double radius_px = side_px * std::numbers::sqrt2 / 2 * (1 + 1e-9) + 1e-9;
-    const ImageMetric plain;
-    std::vector<double> distance_px(candidates.size());
-    double nearest_px = 1e300;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        distance_px[i] = std::sqrt(pieces_[candidates[i]].squared_distance(x, y, plain));
-        nearest_px = std::min(nearest_px, distance_px[i]);
-    }
-    // From a place in the square (within the radius r of its centre) the piece that is nearest to
-    // the centre, at d, is at most d+r away, and in the image at most σ_max·(d+r). A piece that
-    // beats it there is at most (σ_max/σ_min)·(d+r) away in the model frame.
-    const double bound_px = anisotropy_ * (nearest_px + radius_px) + radius_px;
-    std::vector<std::uint16_t> kept;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        if (distance_px[i] <= bound_px) kept.push_back(candidates[i]);
-    }
-    if (size == 1) {
-        const bool reached = nearest_px <= reach_px_ + radius_px;
-        if (reached) {
-            cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                  static_cast<std::size_t>(column)] = std::move(kept);
-        }
-        return;
-    }
-    const int half = size / 2;
-    divide(column, row, half, kept, cells);
-    divide(column + half, row, half, kept, cells);
-    divide(column, row + half, half, kept, cells);
-    divide(column + half, row + half, half, kept, cells);
+    Divider{*this, {}, 0}.divide(0, 0, size, all);
 }
 
 double CandidateGrid::mean_candidates() const {
-    return first_.size() < 2
-               ? 0
-               : static_cast<double>(listed_.size()) / static_cast<double>(first_.size() - 1);
+    double cells = 0;
+    double candidates = 0;
+    for (const std::uint32_t list : list_of_) {
+        cells += listed_[list] > 0 ? 1 : 0;
+        candidates += listed_[list];
+    }
+    return cells > 0 ? candidates / cells : 0;
 }
 
 }  // namespace pursuit::tracker

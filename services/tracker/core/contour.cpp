@@ -13,6 +13,13 @@ constexpr double longest_edge = 2.5;
 
 // The grid is built for somewhat more than asked, so that it is not built again at once.
 constexpr double spare = 1.25;
+// Equal scales need no room for unequal ones, but for what rounding makes of them.
+constexpr double equal_scales = 1 + 1e-6;
+
+// Cells are a part of a piece long, so that they list one or two; px of the model frame.
+constexpr double cells_of_piece = 0.4;
+constexpr double finest_cells_px = 0.25;
+constexpr double coarsest_cells_px = 1.5;
 
 using Points = Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor>;
 using Tree = nanoflann::KDTreeEigenMatrixAdaptor<Points, 2, nanoflann::metric_L2_Simple>;
@@ -93,26 +100,25 @@ Contour::Contour(const Shape& shape) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!touched[i]) pieces.push_back(points[i]);
     }
-    points_ = CandidateGrid(std::move(points), 0, 1);
-    pieces_ = CandidateGrid(std::move(pieces), 0, 1);
+    const double finest_cell_px =
+        std::clamp(cells_of_piece * length_px_ / static_cast<double>(pieces.size()),
+                   finest_cells_px, coarsest_cells_px);
+    points_ = CandidateGrid(std::move(points), finest_cell_px);
+    pieces_ = CandidateGrid(std::move(pieces), finest_cell_px);
 }
 
-void Contour::fit(const Eigen::Matrix2d& a, double reach_px) {
+void Contour::build_for(CandidateGrid& grid, const Eigen::Matrix2d& a, double reach_px) {
     const double norm2 = a.squaredNorm();
     const double determinant = std::abs(a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
     const double sum = std::sqrt(norm2 + 2 * determinant);
     const double difference = std::sqrt(std::max(0.0, norm2 - 2 * determinant));
     const double smallest = std::max((sum - difference) / 2, 1e-3);
-    // Equal scales need no room for unequal ones.
     const double anisotropy = (sum + difference) / 2 / smallest;
-    const double needed = anisotropy < 1 + 1e-9 ? 1 + 1e-9 : anisotropy;
-    if (needed <= points_.anisotropy() && reach_px / smallest <= points_.reach_px()) return;
-    const double built_for = needed <= points_.anisotropy() ? points_.anisotropy()
-                             : anisotropy < 1 + 1e-9        ? needed
-                                                            : needed * spare;
-    const double reach = std::max(points_.reach_px(), reach_px / smallest * spare);
-    points_ = CandidateGrid(points_.pieces(), reach, built_for);
-    pieces_ = CandidateGrid(pieces_.pieces(), reach, built_for);
+    if (anisotropy <= grid.anisotropy() && reach_px / smallest <= grid.reach_px()) return;
+    const double built_for = anisotropy <= grid.anisotropy() ? grid.anisotropy()
+                             : anisotropy < equal_scales     ? equal_scales
+                                                             : anisotropy * spare;
+    grid.build(std::max(grid.reach_px(), reach_px / smallest * spare), built_for);
 }
 
 }  // namespace pursuit::tracker

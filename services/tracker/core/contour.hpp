@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "services/tracker/core/candidate_grid.hpp"
@@ -18,10 +19,12 @@ class Contour {
     Contour() = default;
     explicit Contour(const Shape& shape);
 
-    /// Makes lookups good for places within reach_px (image) of the shape under A. Builds anew only
-    /// when A has become more unequal or smaller than what was built for; the answers are exact
-    /// either way.
-    void fit(const Eigen::Matrix2d& a, double reach_px);
+    /// Makes lookups of pieces good for places within reach_px (image) of the shape under A. Builds
+    /// anew only when A has become more unequal or smaller than what was built for; the answers are
+    /// exact either way.
+    void fit(const Eigen::Matrix2d& a, double reach_px) { fit(pieces_, a, reach_px); }
+    /// The same for lookups of points.
+    void fit_points(const Eigen::Matrix2d& a, double reach_px) { fit(points_, a, reach_px); }
 
     [[nodiscard]] const CandidateGrid& points() const { return points_; }
     [[nodiscard]] const CandidateGrid& pieces() const { return pieces_; }
@@ -33,6 +36,26 @@ class Contour {
     [[nodiscard]] double radius_px() const { return radius_px_; }      ///< Of the farthest point.
 
  private:
+    static void fit(CandidateGrid& grid, const Eigen::Matrix2d& a, double reach_px) {
+        if (!is_fit(grid, a, reach_px)) build_for(grid, a, reach_px);
+    }
+    /// Without a root or a quotient: this is asked with every event. May deny it where the grid has
+    /// little to spare.
+    static bool is_fit(const CandidateGrid& grid, const Eigen::Matrix2d& a, double reach_px) {
+        // Of the singular values: squares of their sum and difference.
+        const double norm2 = a.squaredNorm();
+        const double determinant2 = 2 * std::abs(a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
+        const double sum2 = norm2 + determinant2;
+        const double difference2 = norm2 - determinant2;
+        const double larger = grid.anisotropy() + 1;
+        const double smaller = grid.anisotropy() - 1;
+        // σ_max/σ_min ≤ κ, and then σ_min ≥ sum/(κ + 1), which has to be reach_px/reach at least.
+        const double needed = larger * reach_px;
+        return difference2 * larger * larger <= smaller * smaller * sum2 &&
+               needed * needed <= grid.reach_px() * grid.reach_px() * sum2;
+    }
+    static void build_for(CandidateGrid& grid, const Eigen::Matrix2d& a, double reach_px);
+
     bool is_outline_ = false;
     double length_px_ = 0;
     double gyration_px_ = 0;

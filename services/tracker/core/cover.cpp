@@ -18,25 +18,46 @@ constexpr double sideways_share = 0.1;
 
 Cover::Cover(const Contour& contour) {
     const std::vector<Piece>& pieces = contour.pieces().pieces();
-    for (const Piece& piece : pieces) {
-        Part part;
-        part.middle_px << (piece.ax + piece.bx) / 2, (piece.ay + piece.by) / 2;
-        part.along_px << piece.bx - piece.ax, piece.by - piece.ay;
-        parts_.push_back(part);
+    const std::size_t of_one = (pieces.size() + most_parts - 1) / most_parts;
+    const auto parts = static_cast<Eigen::Index>((pieces.size() + of_one - 1) / of_one);
+    for (Numbers* numbers : {&middle_px_.x, &middle_px_.y, &along_px_.x, &along_px_.y}) {
+        numbers->resize(parts);
+    }
+    std::vector<double> length_px(static_cast<std::size_t>(parts));
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Piece& piece = pieces[i];
+        const Eigen::Vector2d along(piece.bx - piece.ax, piece.by - piece.ay);
+        const auto part = static_cast<Eigen::Index>(i / of_one);
+        part_of_.push_back(static_cast<std::uint8_t>(part));
+        if (i % of_one == 0) {
+            piece_.push_back(static_cast<std::int32_t>(i));
+            middle_px_.x(part) = (piece.ax + piece.bx) / 2;
+            middle_px_.y(part) = (piece.ay + piece.by) / 2;
+            along_px_.x(part) = along.x();
+            along_px_.y(part) = along.y();
+            length_px[static_cast<std::size_t>(part)] = along.norm();
+        } else if (length_px[static_cast<std::size_t>(part)] > 0) {
+            // As long as they all are, the first one's way.
+            double& length = length_px[static_cast<std::size_t>(part)];
+            const double longer = 1 + along.norm() / length;
+            length *= longer;
+            along_px_.x(part) *= longer;
+            along_px_.y(part) *= longer;
+        }
     }
     // Sectors of equal length, in order of the angle about the centre.
-    std::vector<std::size_t> order(parts_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto angle = [&](std::size_t i) {
-        return std::atan2(parts_[i].middle_px.y(), parts_[i].middle_px.x());
-    };
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(parts));
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    const auto angle = [&](Eigen::Index i) { return std::atan2(middle_px_.y(i), middle_px_.x(i)); };
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t l, std::size_t r) { return angle(l) < angle(r); });
-    double length_px = 0;
-    for (const std::size_t i : order) {
-        const double at = length_px / std::max(contour.length_px(), 1e-9);
-        parts_[i].sector = std::min(static_cast<std::size_t>(at * sectors), sectors - 1);
-        length_px += parts_[i].along_px.norm();
+                     [&](Eigen::Index l, Eigen::Index r) { return angle(l) < angle(r); });
+    sector_.resize(static_cast<std::size_t>(parts));
+    double before_px = 0;
+    for (const Eigen::Index i : order) {
+        const double at = before_px / std::max(contour.length_px(), 1e-9);
+        sector_[static_cast<std::size_t>(i)] =
+            std::min(static_cast<std::size_t>(at * sectors), sectors - 1);
+        before_px += length_px[static_cast<std::size_t>(i)];
     }
 }
 
@@ -47,34 +68,27 @@ void Cover::restart() {
     share_ = 1;
 }
 
-void Cover::count(std::int32_t piece, const Outline& outline, const Pose& pose,
-                  const Velocity& velocity) {
-    ++counted_[parts_[static_cast<std::size_t>(piece)].sector];
-    if (++events_ >= window_events) close_window(outline, pose, velocity);
-}
-
 void Cover::close_window(const Outline& outline, const Pose& pose, const Velocity& velocity) {
+    const Eigen::Matrix2d& a = pose.a;
+    // The speed of each part's middle, and what of it goes across the part.
+    const Vectors d{a(0, 0) * middle_px_.x + a(0, 1) * middle_px_.y,
+                    a(1, 0) * middle_px_.x + a(1, 1) * middle_px_.y};
+    const double omega = velocity.omega_rad_s;
+    const double growth = velocity.scale_x_rate_per_s;
+    const Vectors speed{(velocity.vx_px_s - omega * d.y) + growth * d.x,
+                        (velocity.vy_px_s + omega * d.x) + growth * d.y};
+    const Vectors along{a(0, 0) * along_px_.x + a(0, 1) * along_px_.y,
+                        a(1, 0) * along_px_.x + a(1, 1) * along_px_.y};
+    const double fastest2 = (speed.x * speed.x + speed.y * speed.y).maxCoeff();
+    const double fastest_px_s = std::max(1e-9, std::sqrt(fastest2));
+    const Numbers part_rate = (along.x * speed.y - along.y * speed.x).abs() / fastest_px_s +
+                              sideways_share * (along.x * along.x + along.y * along.y).sqrt();
     std::array<double, sectors> rate{};
-    const Eigen::Vector2d v(velocity.vx_px_s, velocity.vy_px_s);
-    double fastest_px_s = 1e-9;
-    for (const Part& part : parts_) {
-        const Eigen::Vector2d d = pose.a * part.middle_px;
-        const Eigen::Vector2d speed = v + velocity.omega_rad_s * Eigen::Vector2d(-d.y(), d.x()) +
-                                      velocity.scale_x_rate_per_s * d;
-        fastest_px_s = std::max(fastest_px_s, speed.norm());
-    }
     double sum = 0;
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-        const Part& part = parts_[i];
-        if (outline.is_hidden(static_cast<std::int32_t>(i))) continue;
-        const Eigen::Vector2d d = pose.a * part.middle_px;
-        const Eigen::Vector2d speed = v + velocity.omega_rad_s * Eigen::Vector2d(-d.y(), d.x()) +
-                                      velocity.scale_x_rate_per_s * d;
-        const Eigen::Vector2d along = pose.a * part.along_px;
-        const double across = std::abs(along.x() * speed.y() - along.y() * speed.x());
-        const double part_rate = across / fastest_px_s + sideways_share * along.norm();
-        rate[part.sector] += part_rate;
-        sum += part_rate;
+    for (std::size_t i = 0; i < sector_.size(); ++i) {
+        if (outline.is_hidden(piece_[i])) continue;
+        rate[sector_[i]] += part_rate(static_cast<Eigen::Index>(i));
+        sum += part_rate(static_cast<Eigen::Index>(i));
     }
     double counted = 0;
     double expected = 0;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "services/tracker/core/contour.hpp"
@@ -22,7 +24,10 @@ class Cover {
     /// An event on this piece of the contour, under this pose and velocity. Nothing is expected of
     /// what the outline says is hidden.
     void count(std::int32_t piece, const Outline& outline, const Pose& pose,
-               const Velocity& velocity);
+               const Velocity& velocity) {
+        ++counted_[sector_[part_of_[static_cast<std::size_t>(piece)]]];
+        if (++events_ >= window_events) close_window(outline, pose, velocity);
+    }
 
     /// The share of the expected events whose parts of the contour got a quarter or more of theirs,
     /// 0 … 1; over the last few hundred events.
@@ -33,13 +38,19 @@ class Cover {
 
     static constexpr std::size_t sectors = 20;
     static constexpr int window_events = 50;
+    static constexpr int most_parts = 128;
 
-    struct Part {
-        std::size_t sector = 0;
-        Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();  // model frame
-        Eigen::Vector2d along_px = Eigen::Vector2d::Zero();
+    using Numbers = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_parts, 1>;
+    struct Vectors {
+        Numbers x, y;
     };
-    std::vector<Part> parts_;  // a piece each
+
+    // Up to 128 pieces are a part each; of more, several that follow each other are one.
+    std::vector<std::uint8_t> part_of_;  // by piece
+    std::vector<std::size_t> sector_;    // by part
+    std::vector<std::int32_t> piece_;    // its first
+    Vectors middle_px_;                  // model frame
+    Vectors along_px_;
     std::array<double, sectors> counted_{};
     std::array<double, sectors> expected_{};
     int events_ = 0;

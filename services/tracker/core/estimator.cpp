@@ -7,28 +7,30 @@
 namespace pursuit::tracker {
 namespace {
 
-std::unique_ptr<Estimator> make_kalman(TransformKind transform, const Shape& shape,
+std::unique_ptr<Estimator> make_kalman(TransformKind transform, const Contour& contour,
                                        const ObjectParameters& parameters) {
     switch (transform) {
         case TransformKind::isometry:
-            return std::make_unique<KalmanEstimator<TransformKind::isometry>>(shape, parameters);
+            return std::make_unique<KalmanEstimator<TransformKind::isometry>>(contour, parameters);
         case TransformKind::similarity:
-            return std::make_unique<KalmanEstimator<TransformKind::similarity>>(shape, parameters);
+            return std::make_unique<KalmanEstimator<TransformKind::similarity>>(contour,
+                                                                                parameters);
         case TransformKind::paper_affine:
-            return std::make_unique<KalmanEstimator<TransformKind::paper_affine>>(shape,
+            return std::make_unique<KalmanEstimator<TransformKind::paper_affine>>(contour,
                                                                                   parameters);
         case TransformKind::full_affine:
             break;
     }
-    return std::make_unique<KalmanEstimator<TransformKind::full_affine>>(shape, parameters);
+    return std::make_unique<KalmanEstimator<TransformKind::full_affine>>(contour, parameters);
 }
 
 }  // namespace
 
 std::unique_ptr<Estimator> make_estimator(EstimatorKind kind, TransformKind transform,
                                           const Shape& shape, const ObjectParameters& parameters) {
-    if (kind == EstimatorKind::kalman) return make_kalman(transform, shape, parameters);
-    return std::make_unique<GradientEstimator>(transform, shape, parameters);
+    const Contour contour(shape);
+    if (kind == EstimatorKind::kalman) return make_kalman(transform, contour, parameters);
+    return std::make_unique<GradientEstimator>(transform, contour, parameters);
 }
 
 }  // namespace pursuit::tracker

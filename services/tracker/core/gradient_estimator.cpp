@@ -7,9 +7,9 @@
 
 namespace pursuit::tracker {
 
-GradientEstimator::GradientEstimator(TransformKind transform, const Shape& shape,
+GradientEstimator::GradientEstimator(TransformKind transform, const Contour& contour,
                                      const ObjectParameters& parameters, Pull pull)
-    : transform_(transform), pull_(pull), contour_(shape), parameters_(parameters) {
+    : transform_(transform), pull_(pull), contour_(contour), parameters_(parameters) {
     restart({}, {});
 }
 
@@ -30,6 +30,7 @@ Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     const double within_px = reach_px(event.t_us);
     if (q_.squaredNorm() > within_px * within_px) return {};
     contour_.fit(pose_.a, parameters_.gate_px);
+    if (pull_ == Pull::point) contour_.fit_points(pose_.a, parameters_.gate_px);
     const Eigen::Vector2d x = pose_.a.inverse() * q_;
     const ImageMetric metric(pose_.a);
     const CandidateGrid& grid = pull_ == Pull::point ? contour_.points() : contour_.pieces();
@@ -38,8 +39,8 @@ Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     distance_px_ = std::sqrt(nearest.squared_px);
     if (distance_px_ > parameters_.gate_px) return {};
     const Piece& piece = grid.pieces()[static_cast<std::size_t>(nearest.piece)];
-    const double foot = piece.foot(x.x(), x.y(), metric);
-    m_ << piece.ax + foot * (piece.bx - piece.ax), piece.ay + foot * (piece.by - piece.ay);
+    m_ << piece.ax + nearest.foot * (piece.bx - piece.ax),
+        piece.ay + nearest.foot * (piece.by - piece.ay);
     t_us_ = event.t_us;
     const auto on_contour =
         pull_ == Pull::contour ? nearest : contour_.pieces().nearest(x.x(), x.y(), metric);

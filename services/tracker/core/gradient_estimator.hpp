@@ -15,7 +15,7 @@ class GradientEstimator : public Estimator {
     /// Where the event pulls: the paper's nearest model point, or the nearest place of the contour.
     enum class Pull { point, contour };
 
-    GradientEstimator(TransformKind transform, const Shape& shape,
+    GradientEstimator(TransformKind transform, const Contour& contour,
                       const ObjectParameters& parameters, Pull pull = Pull::point);
 
     void restart(const Pose& pose, const Velocity& velocity) override;

@@ -41,8 +41,8 @@ double normal_density(double r, double variance) {
 }  // namespace
 
 template <TransformKind kind>
-KalmanEstimator<kind>::KalmanEstimator(const Shape& shape, const ObjectParameters& parameters)
-    : contour_(shape), parameters_(parameters) {
+KalmanEstimator<kind>::KalmanEstimator(const Contour& contour, const ObjectParameters& parameters)
+    : contour_(contour), parameters_(parameters) {
     restart({}, {});
 }
 
@@ -206,9 +206,8 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     if (distance_px > Clutter::far_to_px) return {};
 
     const Piece& piece = contour_.pieces().pieces()[static_cast<std::size_t>(nearest.piece)];
-    const double foot = piece.foot(x.x(), x.y(), metric);
-    const Eigen::Vector2d m(piece.ax + foot * (piece.bx - piece.ax),
-                            piece.ay + foot * (piece.by - piece.ay));
+    const Eigen::Vector2d m(piece.ax + nearest.foot * (piece.bx - piece.ax),
+                            piece.ay + nearest.foot * (piece.by - piece.ay));
     const Eigen::Vector2d d = pose.a * m;
     const Eigen::Vector2d along =
         pose.a * Eigen::Vector2d(piece.bx - piece.ax, piece.by - piece.ay);

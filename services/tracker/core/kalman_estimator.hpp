@@ -16,7 +16,7 @@ namespace pursuit::tracker {
 template <TransformKind kind>
 class KalmanEstimator : public Estimator {
  public:
-    KalmanEstimator(const Shape& shape, const ObjectParameters& parameters);
+    KalmanEstimator(const Contour& contour, const ObjectParameters& parameters);
 
     void restart(const Pose& pose, const Velocity& velocity) override;
     void set_parameters(const ObjectParameters& parameters) override;

@@ -146,26 +146,35 @@ TEST(Health, tells_events_on_the_contour_from_events_anywhere) {
     EXPECT_TRUE(anywhere.is_below(ObjectParameters().let_go_sharpness));
 }
 
-TEST(Cover, is_whole_where_all_of_a_moving_contour_makes_events) {
-    const Contour contour(arrow());
+void expect_cover_to_tell_all_from_a_part(const Contour& contour) {
     const Outline outline(contour);
     Cover cover(contour);
     const Velocity right{100, 0, 0, 0, 0};
     const auto& pieces = contour.pieces().pieces();
-    const auto make_events = [&](bool front_alone) {
-        for (int round = 0; round < 60; ++round) {
-            for (std::size_t i = 0; i < pieces.size(); ++i) {
-                const bool faces = std::abs(pieces[i].by - pieces[i].ay) > 0.3;
-                if (!faces || (front_alone && pieces[i].ax < 0)) continue;
-                cover.count(static_cast<std::int32_t>(i), outline, {}, right);
-            }
-        }
+    const auto make_event = [&](std::size_t piece) {
+        cover.count(static_cast<std::int32_t>(piece), outline, {}, right);
     };
-    make_events(false);
+    // Each piece makes events by how far it moves across itself.
+    const double rounds = 6000 / contour.length_px();
+    for (int round = 0; round < 20; ++round) {
+        double due = 0;
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            due += rounds / 20 * std::abs(pieces[i].by - pieces[i].ay);
+            for (; due >= 1; due -= 1) make_event(i);
+        }
+    }
     EXPECT_GT(cover.share(), 0.8);
     cover.restart();
-    for (int round = 0; round < 2000; ++round) cover.count(0, outline, {}, right);
+    for (int round = 0; round < 2000; ++round) make_event(0);
     EXPECT_LT(cover.share(), 0.3);
+}
+
+TEST(Cover, is_whole_where_all_of_a_moving_contour_makes_events) {
+    expect_cover_to_tell_all_from_a_part(Contour(arrow()));
+}
+
+TEST(Cover, does_so_for_a_contour_of_more_pieces_than_it_has_parts) {
+    expect_cover_to_tell_all_from_a_part(Contour(test::ring("ring", 30, 2000)));
 }
 
 TEST(Clutter, is_near_nothing_for_an_object_alone_and_high_in_noise) {

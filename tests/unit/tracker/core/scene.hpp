@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -48,6 +49,19 @@ inline Shape polygon(std::string name, const std::vector<Eigen::Vector2d>& corne
         shape.edges.push_back({i, static_cast<std::uint16_t>((i + 1) % count)});
     }
     return centred(shape);
+}
+
+/// A circle of that many points, joined.
+inline Shape ring(const std::string& name, double radius_px, int points) {
+    Shape shape{name, {}, {}};
+    for (int i = 0; i < points; ++i) {
+        const double angle = 2 * std::numbers::pi * i / points;
+        shape.points_px.push_back(
+            (radius_px * Eigen::Vector2d(std::cos(angle), std::sin(angle))).cast<float>());
+        shape.edges.push_back(
+            {static_cast<std::uint16_t>(i), static_cast<std::uint16_t>((i + 1) % points)});
+    }
+    return shape;
 }
 
 /// No symmetry: every pose of it looks different.
