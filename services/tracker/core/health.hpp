@@ -66,6 +66,9 @@ class Health {
         return recent_ / memory_s * std::exp(-dt_s / memory_s);
     }
 
+    /// The same while the events fitted and it was not quiet; over the last half second.
+    [[nodiscard]] double usual_rate_hz() const { return own_rate_ / memory_s; }
+
     /// Whether the events speak against the pose: at chance or far from what is usual for the
     /// object, from a part of the contour alone, or a little of both.
     [[nodiscard]] bool is_against(double let_go_sharpness, double cover) const {

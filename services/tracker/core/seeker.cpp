@@ -9,6 +9,7 @@ namespace pursuit::tracker {
 namespace {
 
 constexpr std::int64_t longest_us = 40'000;
+constexpr std::int64_t longest_of_check_us = 150'000;
 constexpr std::int64_t neighbour_us = 5'000;
 
 // How often it is asked who wants to be looked for.
@@ -47,7 +48,8 @@ void Seeker::go_on(std::int64_t t_us, std::span<Track> tracks) {
     const auto track = std::find_if(tracks.begin(), tracks.end(), [&](const Track& candidate) {
         return candidate.object_id() == object_id_;
     });
-    if (track == tracks.end() || !track->wanted(t_us, geometry_)) {
+    const auto wanted = track == tracks.end() ? std::nullopt : track->wanted(t_us, geometry_);
+    if (!wanted || wanted->is_check != is_check_) {
         object_id_ = 0;
         return;
     }
@@ -71,12 +73,21 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
     }
     if (chosen == nullptr) return;
     if (chosen->object_id() != last_object_id_) attempt_ = 0;
-    const SearchRange range = *chosen->wanted(t_us, geometry_);
+    SearchRange range = *chosen->wanted(t_us, geometry_);
+    is_check_ = range.is_check;
     const std::size_t count = wanted_events(*chosen);
     ++attempt_;
     last_object_id_ = chosen->object_id();
     gather(t_us, range, chosen->radius_px(), count);
     if (gathered_.size() < count / 8) return;
+    going_ = range.going;
+    checked_ = range.checked;
+    if (is_check_ && !going_) {
+        checked_ = checked_.at(t_us - static_cast<std::int64_t>(mean_age_us(t_us)), 1);
+        range.around = checked_.pose;
+        range.seeds.front() = checked_.pose;
+    }
+    if (going_) lead_on(t_us, *going_);
     map_.build(geometry_, gathered_);
     search_ = ShapeSearch(chosen->contour());
     search_.begin(map_, range);
@@ -89,22 +100,60 @@ std::size_t Seeker::wanted_events(const Track& track) const {
     const double scale = track.radius_px() / std::max(track.contour().radius_px(), 1e-9);
     const double once = events_per_px * track.contour().length_px() * scale;
     constexpr std::array times{1.0, 3.0, 9.0};
-    return std::clamp(static_cast<std::size_t>(once * times[attempt_ % times.size()]),
+    constexpr std::array of_check{1.0, 0.3, 3.0};  // where the object is alone, and fast
+    const auto& chosen = is_check_ ? of_check : times;
+    return std::clamp(static_cast<std::size_t>(once * chosen[attempt_ % chosen.size()]),
                       std::size_t{100}, ring_events);
 }
 
 void Seeker::end(std::int64_t t_us, Track& track) {
     object_id_ = 0;
     due_us_ = t_us + idle_us;
+    if (is_check_) {
+        end_check(t_us, track);
+        return;
+    }
     if (!search_.found()) return;
-    SearchRange again{search_.found()->pose, again_reach_px, again_angle_rad,
-                      track.has_fixed_scale() ? 0 : again_log_scale, again_reach_px};
+    SearchRange again;
+    again.around = search_.found()->pose;
+    look_again(t_us, track, std::move(again));
+    if (search_.found()) track.offer(t_us, search_.found()->pose);
+}
+
+// Whether the object is where it is thought to be, or rather elsewhere.
+void Seeker::end_check(std::int64_t t_us, Track& track) {
+    const Doubt::Finding finding =
+        track.compare(search_.found(), checked_.pose, search_.score_of(checked_.pose));
+    if (!track.take_finding(t_us, finding)) return;
+    // Where it has gone meanwhile, if it goes so.
+    Coast found{checked_.t_us, search_.found()->pose, {}};
+    if (going_) {
+        found.velocity = going_->at(checked_.t_us, 1).velocity;
+        found = found.at(t_us, 1);
+    }
+    if (finding.is_sure) {
+        SearchRange again;
+        again.around = found.pose;
+        again.since_us = track.doubt().since_us();
+        if (going_) again.going = found;
+        look_again(t_us, track, std::move(again));
+        if (search_.found()) found.pose = search_.found()->pose;
+    } else if (!going_) {
+        found.pose.t_px += track.pose().t_px - checked_.pose.t_px;
+    }
+    track.move_to(t_us, found.pose, found.velocity);
+}
+
+void Seeker::look_again(std::int64_t t_us, const Track& track, SearchRange again) {
+    again.reach_px = again.usual_distance_px = again_reach_px;
+    again.angle_rad = again_angle_rad;
+    again.log_scale = track.has_fixed_scale() ? 0 : again_log_scale;
     gather(t_us, again, track.radius_px(),
            static_cast<std::size_t>(events_per_px * track.contour().length_px()));
+    if (again.going) lead_on(t_us, *again.going);
     map_.build(geometry_, gathered_);
     search_.begin(map_, again);
     search_.step(1 << 30);
-    if (search_.found()) track.offer(t_us, search_.found()->pose);
 }
 
 void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_px,
@@ -122,7 +171,10 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
     std::size_t first = next_;
     for (std::size_t i = 0; i < kept; ++i) {
         const Event& event = ring_[(next_ - 1 - i) % ring_events];
-        if (t_us - event.t_us > longest_us) break;
+        if (t_us - event.t_us > (range.is_check ? longest_of_check_us : longest_us) ||
+            event.t_us < range.since_us) {
+            break;
+        }
         first = next_ - 1 - i;
     }
     const auto at = [&](int x, int y) -> std::int64_t& {
@@ -140,10 +192,38 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
             }
         }
         at(event.x, event.y) = event.t_us;
-        if (is_supported && is_in_reach(event)) gathered_.push_back(event);
+        if (!is_supported || !is_in_reach(event)) continue;
+        gathered_.push_back(event);
     }
     if (gathered_.size() > count) {
         gathered_.erase(gathered_.begin(), gathered_.end() - static_cast<std::ptrdiff_t>(count));
+    }
+}
+
+double Seeker::mean_age_us(std::int64_t t_us) const {
+    double sum_us = 0;
+    for (const Event& event : gathered_) sum_us += static_cast<double>(t_us - event.t_us);
+    return gathered_.empty() ? 0 : sum_us / static_cast<double>(gathered_.size());
+}
+
+// Moves the gathered events to where an object that goes so would make them now.
+void Seeker::lead_on(std::int64_t t_us, const Coast& going) {
+    const Coast now = going.at(t_us, 1);
+    Coast then = now;
+    Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();
+    std::int64_t of_us = t_us;
+    for (Event& event : gathered_) {
+        if (event.t_us != of_us) {
+            of_us = event.t_us;
+            then = now.at(of_us, 1);
+            turn = rotation(now.velocity.omega_rad_s * static_cast<double>(t_us - of_us) * 1e-6);
+        }
+        const Eigen::Vector2d p =
+            now.pose.t_px + turn * (Eigen::Vector2d(event.x, event.y) - then.pose.t_px);
+        event.x =
+            static_cast<std::uint16_t>(std::clamp(std::lround(p.x()), 0L, geometry_.width - 1L));
+        event.y =
+            static_cast<std::uint16_t>(std::clamp(std::lround(p.y()), 0L, geometry_.height - 1L));
     }
 }
 

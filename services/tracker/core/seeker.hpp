@@ -40,6 +40,11 @@ class Seeker {
     void go_on(std::int64_t t_us, std::span<Track> tracks);
     void begin(std::int64_t t_us, std::span<Track> tracks);
     void end(std::int64_t t_us, Track& track);
+    void end_check(std::int64_t t_us, Track& track);
+    /// Looks again near a pose, in the newest events.
+    void look_again(std::int64_t t_us, const Track& track, SearchRange again);
+    void lead_on(std::int64_t t_us, const Coast& going);
+    [[nodiscard]] double mean_age_us(std::int64_t t_us) const;
     /// The last `count` events that have a neighbour in space and time, in reach of the range.
     void gather(std::int64_t t_us, const SearchRange& range, double radius_px, std::size_t count);
     [[nodiscard]] std::size_t wanted_events(const Track& track) const;
@@ -51,6 +56,9 @@ class Seeker {
     std::vector<std::int64_t> fired_us_;  // by pixel, while gathering
     FiredMap map_;
     ShapeSearch search_;
+    bool is_check_ = false;
+    Coast checked_;                // the track, when the gathered events came
+    std::optional<Coast> going_;   // how they were led on to where they would come now
     std::uint32_t object_id_ = 0;  // of the search that goes on; 0: none
     std::uint32_t last_object_id_ = 0;
     std::uint32_t attempt_ = 0;

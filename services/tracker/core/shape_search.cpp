@@ -19,6 +19,9 @@ constexpr double least_score = 0.4;
 // The best of very many poses fits noise better than chance, the more of it there is.
 constexpr double chance_margin = 0.9;
 
+// Where the object is expected counts for so much of the contour.
+constexpr double seed_bonus = 0.05;
+
 // A pose of the coarse pass is at least this far from its surroundings.
 constexpr double least_z = 2;
 
@@ -70,7 +73,7 @@ void ShapeSearch::begin(const FiredMap& map, const SearchRange& range) {
     range_ = range;
     found_.reset();
     best_.clear();
-    fine_next_ = 0;
+    seed_next_ = fine_next_ = 0;
     turns_.clear();
     stride_ = std::max(1, static_cast<int>(stride_px / map.cell_px()));
     const double middle_rad = theta_rad(range.around.a);
@@ -124,20 +127,25 @@ void ShapeSearch::step(int poses) {
         if (++turn_ == turns_.size()) stage_ = Stage::fine;
     }
     while (poses > 0 && stage_ == Stage::fine) {
-        if (fine_next_ == best_.size()) {
+        if (seed_next_ < range_.seeds.size()) {
+            weigh(range_.seeds[seed_next_++], true);
+        } else if (fine_next_ < best_.size()) {
+            weigh(pose_of(best_[fine_next_++]), false);
+        } else {
             stage_ = Stage::done;
-            break;
-        }
-        const Candidate& candidate = best_[fine_next_++];
-        const Pose pose = fitted(pose_of(candidate));
-        const double far = (pose.t_px - range_.around.t_px).norm() / range_.usual_distance_px;
-        const Fit fit = fit_of(pose);
-        const double worth = fit.score - 0.05 * std::min(far * far, 4.0);
-        if (fit.score > least_score + chance_margin * fit.chance &&
-            (!found_ || worth > found_->score)) {
-            found_ = Found{pose, worth};
         }
         poses -= 300;
+    }
+}
+
+void ShapeSearch::weigh(const Pose& pose, bool is_seed) {
+    const Pose fit_pose = fitted(pose);
+    const Fit fit = fit_of(fit_pose);
+    const double far = (fit_pose.t_px - range_.around.t_px).norm() / range_.usual_distance_px;
+    const double worth = fit.score + (is_seed ? seed_bonus : -0.05 * std::min(far * far, 4.0));
+    const bool is_sure = fit.score > least_score + chance_margin * fit.chance;
+    if ((is_sure || range_.is_check) && (!found_ || worth > found_->score)) {
+        found_ = Found{fit_pose, worth, is_sure};
     }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "services/tracker/core/coast.hpp"
 #include "services/tracker/core/contour.hpp"
 #include "services/tracker/core/fired_map.hpp"
 #include "services/tracker/core/pose.hpp"
@@ -19,6 +20,12 @@ struct SearchRange {
     double angle_rad = 0;           ///< Either way; π or more: any.
     double log_scale = 0;           ///< Either way; 0 keeps the scale.
     double usual_distance_px = 30;  ///< Places so far off count one standard deviation less.
+
+    std::vector<Pose> seeds;    ///< Poses to be looked at first, and a little preferred.
+    bool is_check = false;      ///< Whether it is where it is thought to be: what fits best counts.
+    std::int64_t since_us = 0;  ///< Events before it tell nothing.
+    Coast checked;              ///< What is checked: where it is and how it goes.
+    std::optional<Coast> going;  ///< How events are led on to where they would come now.
 };
 
 /// Finds a shape in what fired lately, without a good guess. What speaks for a pose is that the
@@ -43,8 +50,11 @@ class ShapeSearch {
 
     struct Found {
         Pose pose;
-        double score = 0;  ///< 0 chance … 1: how much of the contour fired, beyond chance.
+        double score = 0;     ///< 0 chance … 1: how much of the contour fired, beyond chance.
+        bool is_sure = true;  ///< Good enough by itself; others only a check finds.
     };
+    /// How well a pose fits as it is.
+    [[nodiscard]] double score_of(const Pose& pose) const { return fit_of(pose).score; }
     /// The best pose where it is good enough to be tried.
     [[nodiscard]] const std::optional<Found>& found() const { return found_; }
 
@@ -74,6 +84,8 @@ class ShapeSearch {
 
     void look_at(const Turn& turn, std::size_t turn_index, int column, int row);
     void keep(const Candidate& candidate);
+    /// Fits the pose, and keeps it where it is the best so far.
+    void weigh(const Pose& pose, bool is_seed);
     [[nodiscard]] Pose pose_of(const Candidate& candidate) const;
     [[nodiscard]] double mean_distance(const Pose& pose) const;
     [[nodiscard]] Pose fitted(Pose pose) const;
@@ -102,6 +114,7 @@ class ShapeSearch {
     int row_ = 0;
     int column_ = 0;
     std::vector<Candidate> best_;  // falling z
+    std::size_t seed_next_ = 0;
     std::size_t fine_next_ = 0;
     std::optional<Found> found_;
 };

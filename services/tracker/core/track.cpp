@@ -28,13 +28,24 @@ constexpr double farthest_reach_px = 80;
 constexpr double near_angle_rad = 0.6;
 constexpr double near_log_scale = 0.1;
 constexpr double any_log_scale = 0.27;
-constexpr double adrift_px = 150;  // after a gap between streams, the usual distance
+constexpr double check_reach_px = 30;
+constexpr double check_angle_rad = 0.5;
+constexpr double uncertain_share = 0.1;  // of the way gone unseen
+constexpr double adrift_px = 150;        // after a gap between streams, the usual distance
 
 // The events must speak against the pose for this long, less what they speak for it twice: models
 // taken from a real recording, and the first moments of slow objects among noise, do so for a
 // while.
 constexpr std::int64_t let_go_after_us = 60'000;
 constexpr std::int64_t longest_step_us = 20'000;
+
+// So many events that should have come and have not: it was silent, all at once.
+constexpr double silent_events = 30;
+constexpr std::int64_t silent_us = 3'000;
+constexpr double unseen_way_px = 5;  // and may have gone so far meanwhile
+constexpr double same_px = 2.5;
+constexpr int start_confirmations = 3;
+constexpr int found_confirmations = 2;
 
 // Of what shows of a moving object: below the first it is covered, above the second no more.
 constexpr double covered_share = 0.2;
@@ -108,6 +119,9 @@ void Track::restart(const RegisteredObject& object) {
     slow_.restart();
     is_fresh_ = true;
     against_us_ = 0;
+    heard_us_ = -1;
+    is_silent_ = false;
+    doubt_.begin(0, start_confirmations);
     health_.restart();
     cover_->restart();
     estimator_->restart(object.start.pose, object.start.velocity);
@@ -137,6 +151,12 @@ void Track::remember_good(std::int64_t t_us) {
     if (good_[0].t_us >= 0 && t_us - good_[0].t_us < keep_every_us) return;
     PoseRecord now;
     estimator_->describe(t_us, now);
+    // What is less than its own uncertainty is none: an object that stands does not coast off.
+    Velocity& v = now.velocity;
+    const auto& of_v = now.velocity_covariance;
+    if (v.vx_px_s * v.vx_px_s + v.vy_px_s * v.vy_px_s < of_v[0] + of_v[3])
+        v.vx_px_s = v.vy_px_s = 0;
+    if (v.omega_rad_s * v.omega_rad_s < of_v[5]) v.omega_rad_s = 0;
     good_[1] = good_[0].t_us < 0 ? Coast{t_us, now.pose, now.velocity} : good_[0];
     good_[0] = {t_us, now.pose, now.velocity};
 }
@@ -171,20 +191,48 @@ void Track::acquire(std::int64_t t_us) {
     cover_->restart();
     estimator_->restart(acquisition_->pose(), acquisition_->velocity());
     for (Coast& good : good_) good = {t_us, acquisition_->pose(), acquisition_->velocity()};
+    heard_us_ = t_us;
+    is_silent_ = false;
+    doubt_.begin(t_us, found_confirmations);
 }
 
-Pose Track::coasted(std::int64_t t_us) const {
-    const Coast& from = good_[1];
-    const double dt_s = std::clamp(seconds(t_us - from.t_us), 0.0, tracker_.coast_s);
-    Pose pose = from.pose;
-    pose.t_px += dt_s * Eigen::Vector2d(from.velocity.vx_px_s, from.velocity.vy_px_s);
-    pose.a = rotation(from.velocity.omega_rad_s * dt_s) * pose.a;
-    return pose;
-}
+Pose Track::coasted(std::int64_t t_us) const { return good_[1].at(t_us, tracker_.coast_s).pose; }
 
 std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) const {
-    if (t_us < trial_until_us_ || (!is_searching_ && !is_acquiring_)) return std::nullopt;
+    if (t_us < trial_until_us_) return std::nullopt;
     SearchRange range;
+    if (!is_searching_ && !is_acquiring_) {
+        const bool is_told = !is_covered_ && emerged_us_ < 0 && !health_.is_quiet() &&
+                             !estimator_->sees_noise_alone();
+        if (!is_told || !doubt_.is_due(t_us)) return std::nullopt;
+        const Coast own{t_us, pose(), estimator_->velocity()};
+        range.checked = own;
+        range.around = own.pose;
+        range.seeds = {own.pose};
+        range.is_check = true;
+        range.since_us = doubt_.since_us();
+        range.reach_px = check_reach_px;
+        range.angle_rad = check_angle_rad;
+        range.log_scale = has_fixed_scale() ? 0 : near_log_scale;
+        range.usual_distance_px = check_reach_px / 2;
+        // By turns: as it is thought to go, and as if nothing were known.
+        const bool leads_on = doubt_.tries() % 2 == 0;
+        if (leads_on) range.going = own;
+        if (doubt_.before()) {
+            const Coast gone = doubt_.before()->at(t_us, tracker_.coast_s);
+            range.seeds.push_back(gone.pose);
+            range.seeds.push_back(doubt_.before()->pose);
+            if (leads_on) {
+                range.going = gone;
+                range.around = gone.pose;
+            }
+            const double gone_s = seconds(t_us - doubt_.before()->t_us);
+            range.angle_rad += uncertain_share * gone_s * std::abs(gone.velocity.omega_rad_s);
+            range.reach_px +=
+                uncertain_share * gone_s * std::hypot(gone.velocity.vx_px_s, gone.velocity.vy_px_s);
+        }
+        return range;
+    }
     if (!is_searching_ && t_us - grip_lost_us_ < unaided_us) return std::nullopt;
     const double gap_s = seconds(t_us - good_[1].t_us);
     if (!is_searching_ && !is_adrift_ && gap_s < tracker_.coast_s) {
@@ -213,6 +261,45 @@ void Track::offer(std::int64_t t_us, const Pose& pose) {
     acquisition_->begin(constrained(pose, transform_), trial_gate_px);
 }
 
+Doubt::Finding Track::compare(const std::optional<ShapeSearch::Found>& found, const Pose& checked,
+                              double own_score) const {
+    Doubt::Finding finding;
+    if (!found) return finding;
+    finding.off_px = found->pose.t_px - checked.t_px;
+    const double turned_px =
+        contour_.gyration_px() * (found->pose.a - checked.a).norm() / std::numbers::sqrt2;
+    finding.is_here = std::hypot(finding.off_px.norm(), turned_px) < same_px;
+    finding.is_sure = found->is_sure;
+    finding.gain = found->score - own_score;
+    return finding;
+}
+
+void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocity) {
+    const Pose moved = constrained(pose, transform_);
+    health_.restart(Health::good);
+    cover_->restart();
+    acquired_us_ = t_us;
+    against_us_ = 0;
+    estimator_->restart(moved, velocity);
+    for (Coast& good : good_) good = {t_us, moved, velocity};
+    doubt_.begin(t_us, found_confirmations);
+}
+
+// Fewer events than it makes: none at all where many should have come.
+bool Track::is_silent(std::int64_t t_us) const {
+    const std::int64_t silence_us = t_us - heard_us_;
+    return heard_us_ >= 0 && seconds(silence_us) * health_.usual_rate_hz() > silent_events;
+}
+
+void Track::hear(std::int64_t t_us) {
+    if (emerged_us_ >= 0 || is_silent_ || !is_silent(t_us)) return;
+    const std::int64_t silence_us = t_us - heard_us_;
+    if (silence_us < silent_us && seconds(silence_us) * speed_px_s() < same_px) return;
+    is_silent_ = true;
+    const Coast before{heard_us_, estimator_->pose(), estimator_->velocity()};
+    doubt_.begin(t_us, found_confirmations, before);
+}
+
 Pose Track::pose() const {
     if (is_covered_) return covered_.pose;
     return is_acquiring_ ? acquisition_->pose() : estimator_->pose();
@@ -223,6 +310,7 @@ void Track::reach_time(std::int64_t t_us) {
     if (emerged_us_ >= 0 && seconds(t_us - emerged_us_) > tracker_.coast_s) give_up(t_us);
     if (t_us < trial_until_us_) return;
     if (is_searching_) is_acquiring_ = false;
+    if (!is_acquiring_ && !is_searching_) hear(t_us);
     const bool is_coasting = seconds(t_us - grip_lost_us_) < tracker_.coast_s;
     if (is_acquiring_ && is_coasting && t_us - acquisition_began_us_ > acquisition_us) {
         acquisition_began_us_ = t_us;
@@ -251,6 +339,8 @@ bool Track::take(const Event& event, double weight) {
         acquisition_->take();
         if (acquisition_->is_done()) acquire(event.t_us);
     } else {
+        heard_us_ = event.t_us;
+        is_silent_ = false;
         health_.count(distance_px_, parameters_.gate_px, event.t_us,
                       estimator_->sees_noise_alone());
         weigh(event.t_us);
@@ -270,7 +360,7 @@ bool Track::take(const Event& event, double weight) {
             cover_->count(piece_, outline_, estimator_->pose(), estimator_->velocity());
             outline_.count(piece_, weight);
         }
-        if (health_.is_fair() && against_us_ == 0) remember_good(event.t_us);
+        if (health_.is_fair() && against_us_ == 0 && !doubt_.is_open()) remember_good(event.t_us);
     }
     last_event_t_us_ = event.t_us;
     ++events_used_;
@@ -282,6 +372,11 @@ void Track::deny() {
     if (!is_acquiring_ && piece_ >= 0 && distance_px_ < parameters_.gate_px / 4) {
         outline_.count(piece_, 1);
     }
+}
+
+double Track::speed_px_s() const {
+    const Velocity v = estimator_->velocity();
+    return std::hypot(v.vx_px_s, v.vy_px_s, v.omega_rad_s * contour_.gyration_px());
 }
 
 double Track::radius_px() const { return contour_.radius_px() * pose().a.norm(); }
@@ -408,11 +503,15 @@ double Track::confidence_at(std::int64_t t_us) const {
     const double usual = std::clamp((health_.relative_sharpness() - 0.6) / 0.25, 0.0, 1.0);
     const double covered = std::clamp((cover_->share() - 0.4) / 0.2, 0.0, 1.0);
     const double fit = std::min({sharp, usual, covered});
-    // What was found again is believed when it has fitted for a while.
-    const bool is_doubted = t_us - acquired_us_ < believed_after_us || against_us_ > 0;
-    if (is_doubted) return std::min(fit, 0.5);
     const double silent_s = seconds(t_us - health_.lively_t_us()) - sure_s;
-    return silent_s > 0 ? fit * std::exp(-silent_s / doubt_s) : fit;
+    const double believed = silent_s > 0 ? fit * std::exp(-silent_s / doubt_s) : fit;
+    // What was found again is believed when it has fitted for a while, and was confirmed; what is
+    // silent may have gone on meanwhile.
+    const bool is_doubted =
+        t_us - acquired_us_ < believed_after_us || against_us_ > 0 || doubt_.is_open();
+    const double unseen_px = seconds(t_us - heard_us_) * speed_px_s();
+    const bool may_be_gone = is_silent(t_us) && unseen_px > unseen_way_px;
+    return is_doubted || may_be_gone ? std::min(believed, 0.5) : believed;
 }
 
 PoseRecord Track::record(std::int64_t t_us) const {

@@ -8,6 +8,7 @@
 #include "services/common/event.hpp"
 #include "services/tracker/core/acquisition.hpp"
 #include "services/tracker/core/cover.hpp"
+#include "services/tracker/core/doubt.hpp"
 #include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/health.hpp"
 #include "services/tracker/core/outline.hpp"
@@ -69,6 +70,16 @@ class Track {
     [[nodiscard]] std::optional<SearchRange> wanted(std::int64_t t_us, Geometry geometry) const;
     /// The object may be here: it is tried.
     void offer(std::int64_t t_us, const Pose& pose);
+    /// What a search around `checked`, where the track was, says about it.
+    [[nodiscard]] Doubt::Finding compare(const std::optional<ShapeSearch::Found>& found,
+                                         const Pose& checked, double own_score) const;
+    /// True where the object is to be moved to what was found.
+    bool take_finding(std::int64_t t_us, const Doubt::Finding& finding) {
+        return doubt_.take(t_us, finding);
+    }
+    /// The object is rather here than where it was thought to be.
+    void move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocity);
+    [[nodiscard]] const Doubt& doubt() const { return doubt_; }
     [[nodiscard]] const Contour& contour() const { return contour_; }
     [[nodiscard]] bool has_fixed_scale() const { return transform_ == TransformKind::isometry; }
 
@@ -102,15 +113,13 @@ class Track {
     [[nodiscard]] TrackSnapshot snapshot() const;
 
  private:
-    /// A pose at a time, and where it goes from there.
-    struct Coast {
-        std::int64_t t_us = 0;
-        Pose pose;
-        Velocity velocity;
-    };
-
     void make_for(const RegisteredObject& object);
     void remember_good(std::int64_t t_us);
+    [[nodiscard]] bool is_silent(std::int64_t t_us) const;
+    /// Notes that the object has fallen silent.
+    void hear(std::int64_t t_us);
+    /// Of its contour, in the mean.
+    [[nodiscard]] double speed_px_s() const;
     /// Whether the events, now included, speak against the pose.
     void weigh(std::int64_t t_us);
     void lose_grip(std::int64_t t_us);
@@ -134,6 +143,7 @@ class Track {
     std::unique_ptr<Estimator> estimator_;
     std::unique_ptr<Acquisition> acquisition_;
     Health health_;
+    Doubt doubt_;
     std::unique_ptr<Cover> cover_;
     Contour contour_;
     Outline outline_;
@@ -164,6 +174,8 @@ class Track {
     std::int64_t emerged_us_ = -1;  // came out from under another; not yet confirmed by events
     double distance_px_ = 0;
     std::int64_t last_event_t_us_ = 0;
+    std::int64_t heard_us_ = -1;  // the last event that was thought to be its own
+    bool is_silent_ = false;
     std::uint64_t events_used_ = 0;
 };
 

@@ -53,7 +53,7 @@ TEST(Life, of_a_still_object_stays_tracking_with_falling_confidence) {
 }
 
 TEST(Life, finds_an_object_that_starts_pixels_away) {
-    for (const double off_px : {3.0, 8.0, 14.0}) {
+    for (const double off_px : {3.0, 8.0, 14.0, 20.0}) {
         for (const double direction : {0.0, 1.6, 3.1, 4.7}) {
             Pose start = swinging(0);
             start.t_px += off_px * Eigen::Vector2d(std::cos(direction), std::sin(direction));
