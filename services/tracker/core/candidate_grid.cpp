@@ -131,19 +131,21 @@ struct CandidateGrid::Divider {
     }
 
     void fill(int column, int row, int size, const List& kept) {
-        if (kept != last_list || last_at == 0) {
-            last_list = kept;
-            last_at = static_cast<std::uint32_t>(grid.listed_.size());
-            grid.listed_.push_back(static_cast<std::uint16_t>(kept.size()));
-            grid.listed_.insert(grid.listed_.end(), kept.begin(), kept.end());
-        }
+        const std::uint32_t cell = kept.size() == 1 ? kept[0] | one_alone : list(kept);
         for (int y = row; y < std::min(row + size, grid.rows_); ++y) {
             for (int x = column; x < std::min(column + size, grid.columns_); ++x) {
-                grid.list_of_[static_cast<std::size_t>(y) *
-                                  static_cast<std::size_t>(grid.columns_) +
-                              static_cast<std::size_t>(x)] = last_at;
+                grid.cells_[grid.place_of(x, y)] = cell;
             }
         }
+    }
+
+    std::uint32_t list(const List& kept) {
+        if (kept == last_list && last_at > 0) return last_at;
+        last_list = kept;
+        last_at = static_cast<std::uint32_t>(grid.listed_.size());
+        grid.listed_.push_back(static_cast<std::uint16_t>(kept.size()));
+        grid.listed_.insert(grid.listed_.end(), kept.begin(), kept.end());
+        return last_at;
     }
 };
 
@@ -151,7 +153,7 @@ CandidateGrid::CandidateGrid(std::vector<Piece> pieces, double finest_cell_px)
     : pieces_(std::move(pieces)), finest_cell_px_(finest_cell_px) {
     are_points_ = true;
     for (const Piece& piece : pieces_) {
-        sides_.push_back({piece.ax, piece.ay, piece.bx - piece.ax, piece.by - piece.ay});
+        segments_.emplace_back(piece.ax, piece.ay, piece.bx, piece.by);
         are_points_ &= piece.ax == piece.bx && piece.ay == piece.by;
     }
 }
@@ -181,7 +183,10 @@ void CandidateGrid::build(double reach_px, double anisotropy) {
     cells_per_px_ = 1 / cell_px;
     columns_ = static_cast<int>(width_px / cell_px) + 1;
     rows_ = static_cast<int>(height_px / cell_px) + 1;
-    list_of_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
+    tiles_ = (columns_ + 3) / 4;
+    cells_.assign(std::size_t{16} * static_cast<std::size_t>(tiles_) *
+                      static_cast<std::size_t>((rows_ + 3) / 4),
+                  0);
     listed_.assign(1, 0);  // the list of nothing
 
     std::vector<std::uint16_t> all(pieces_.size());
@@ -194,9 +199,10 @@ void CandidateGrid::build(double reach_px, double anisotropy) {
 double CandidateGrid::mean_candidates() const {
     double cells = 0;
     double candidates = 0;
-    for (const std::uint32_t list : list_of_) {
-        cells += listed_[list] > 0 ? 1 : 0;
-        candidates += listed_[list];
+    for (const std::uint32_t cell : cells_) {
+        const double count = (cell & one_alone) != 0 ? 1 : listed_[cell];
+        cells += count > 0 ? 1 : 0;
+        candidates += count;
     }
     return cells > 0 ? candidates / cells : 0;
 }

@@ -2,10 +2,30 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 namespace pursuit::tracker {
+
+/// A straight piece of the model as lookups want it: where it begins, the way to its end, and what
+/// they need of that way. All of it in one line of the cache.
+struct alignas(64) Segment {
+    double ax, ay;
+    double dx, dy;
+    double per_length2 = 0;  ///< 1/length²; 0 for a point.
+    double nx = 0, ny = 0;   ///< The unit normal (dy, −dx)/length; 0 for a point.
+
+    Segment(double from_x, double from_y, double to_x, double to_y)
+        : ax(from_x), ay(from_y), dx(to_x - from_x), dy(to_y - from_y) {
+        const double length2 = dx * dx + dy * dy;
+        if (!(length2 > 0)) return;
+        per_length2 = 1 / length2;
+        const double length = std::sqrt(length2);
+        nx = dy / length;
+        ny = -dx / length;
+    }
+};
 
 /// Squared length in the image of a vector of the model frame: vᵀ(AᵀA)v.
 struct ImageMetric {
@@ -25,6 +45,18 @@ struct ImageMetric {
     [[nodiscard]] double squared(double vx, double vy) const {
         return xx * vx * vx + 2 * xy * vx * vy + yy * vy * vy;
     }
+    [[nodiscard]] double along(double vx, double vy, const Segment& segment) const {
+        return dot(vx, vy, segment.dx, segment.dy) / squared(segment.dx, segment.dy);
+    }
+};
+
+/// Where A keeps angles, what is nearest in the image is nearest in the model frame: lengths are
+/// those of the model frame, and need less.
+struct ModelMetric {
+    [[nodiscard]] double along(double vx, double vy, const Segment& segment) const {
+        return (vx * segment.dx + vy * segment.dy) * segment.per_length2;
+    }
+    [[nodiscard]] double squared(double vx, double vy) const { return vx * vx + vy * vy; }
 };
 
 /// A straight piece of the model, px of the model frame; a point where both ends are one.
@@ -70,76 +102,76 @@ class CandidateGrid {
         double foot = 0;          ///< Where on the piece, 0 … 1.
     };
 
-    [[nodiscard]] Nearest nearest(double x, double y, const ImageMetric& metric) const {
+    /// Metric: ImageMetric, or ModelMetric where A keeps angles.
+    template <class Metric>
+    [[nodiscard]] Nearest nearest(double x, double y, const Metric& metric) const {
         const double column = (x - left_px_) * cells_per_px_;
         const double row = (y - top_px_) * cells_per_px_;
         if (!(column >= 0 && row >= 0 && column < columns_ && row < rows_)) return {};
-        // Signed, for which there is one conversion.
-        const auto cell = static_cast<std::int64_t>(static_cast<std::int32_t>(row)) * columns_ +
-                          static_cast<std::int32_t>(column);
-        const std::uint16_t* listed = &listed_[list_of_[static_cast<std::size_t>(cell)]];
+        const std::uint32_t cell =
+            cells_[place_of(static_cast<int>(column), static_cast<int>(row))];
+        if ((cell & one_alone) != 0) {
+            const std::uint32_t piece = cell & ~one_alone;
+            return are_points_ ? seen_point(piece, x, y, metric) : seen(piece, x, y, metric);
+        }
+        const std::uint16_t* listed = &listed_[cell];
         const std::size_t count = *listed++;
         if (count == 0) return {};
-        return are_points_ ? nearest_point(listed, count, x, y, metric)
-                           : nearest_side(listed, count, x, y, metric);
+        const auto nearest_of = [&](const auto& measured) {
+            Nearest best = measured(listed[0]);
+            for (std::size_t i = 1; i < count; ++i) {
+                const Nearest other = measured(listed[i]);
+                if (other.squared_px < best.squared_px) best = other;
+            }
+            return best;
+        };
+        if (are_points_) {
+            return nearest_of([&](std::uint32_t i) { return seen_point(i, x, y, metric); });
+        }
+        return nearest_of([&](std::uint32_t i) { return seen(i, x, y, metric); });
     }
 
     [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+    [[nodiscard]] const Segment& segment(std::int32_t piece) const {
+        return segments_[static_cast<std::size_t>(piece)];
+    }
     [[nodiscard]] double reach_px() const { return reach_px_; }
     [[nodiscard]] double anisotropy() const { return anisotropy_; }
     /// Of the cells that list any.
     [[nodiscard]] double mean_candidates() const;
 
  private:
-    /// A piece by its beginning and its way to the end.
-    struct Side {
-        double ax, ay;
-        double dx, dy;
-    };
     struct Divider;
 
-    // What is nearer is chosen without a branch: which one it will be cannot be foreseen.
-    [[nodiscard]] Nearest nearest_point(const std::uint16_t* listed, std::size_t count, double x,
-                                        double y, const ImageMetric& metric) const {
-        const auto squared_px = [&](std::size_t piece) {
-            return metric.squared(x - sides_[piece].ax, y - sides_[piece].ay);
-        };
-        Nearest best{listed[0], squared_px(listed[0]), 0};
-        for (std::size_t i = 1; i < count; ++i) {
-            const double squared = squared_px(listed[i]);
-            const bool is_nearer = squared < best.squared_px;
-            best.squared_px = is_nearer ? squared : best.squared_px;
-            best.piece = is_nearer ? listed[i] : best.piece;
-        }
-        return best;
+    template <class Metric>
+    [[nodiscard]] Nearest seen_point(std::uint32_t piece, double x, double y,
+                                     const Metric& metric) const {
+        const Segment& segment = segments_[piece];
+        return {static_cast<std::int32_t>(piece), metric.squared(x - segment.ax, y - segment.ay),
+                0};
     }
-    [[nodiscard]] Nearest nearest_side(const std::uint16_t* listed, std::size_t count, double x,
-                                       double y, const ImageMetric& metric) const {
-        // As Piece has it, in the same order.
-        const auto measured = [&](std::size_t piece) -> Nearest {
-            const Side& side = sides_[piece];
-            const double qx = x - side.ax;
-            const double qy = y - side.ay;
-            const double along =
-                metric.dot(qx, qy, side.dx, side.dy) / metric.squared(side.dx, side.dy);
-            double foot = along > 0 ? along : 0;  // also of a point, whose `along` is no number
-            foot = foot > 1 ? 1 : foot;
-            return {static_cast<std::int32_t>(piece),
-                    metric.squared(qx - foot * side.dx, qy - foot * side.dy), foot};
-        };
-        Nearest best = measured(listed[0]);
-        for (std::size_t i = 1; i < count; ++i) {
-            const Nearest other = measured(listed[i]);
-            const bool is_nearer = other.squared_px < best.squared_px;
-            best.squared_px = is_nearer ? other.squared_px : best.squared_px;
-            best.piece = is_nearer ? other.piece : best.piece;
-            best.foot = is_nearer ? other.foot : best.foot;
-        }
-        return best;
+    // As Piece has it, in the same order.
+    template <class Metric>
+    [[nodiscard]] Nearest seen(std::uint32_t piece, double x, double y,
+                               const Metric& metric) const {
+        const Segment& segment = segments_[piece];
+        const double vx = x - segment.ax;
+        const double vy = y - segment.ay;
+        const double along = metric.along(vx, vy, segment);
+        double foot = along > 0 ? along : 0;  // also of a point, whose `along` may be no number
+        foot = foot > 1 ? 1 : foot;
+        return {static_cast<std::int32_t>(piece),
+                metric.squared(vx - foot * segment.dx, vy - foot * segment.dy), foot};
+    }
+
+    // Cells of 4 by 4 lie together: a contour runs through few lines of the cache.
+    [[nodiscard]] std::size_t place_of(int column, int row) const {
+        const int tile = (row >> 2) * tiles_ + (column >> 2);
+        return static_cast<std::size_t>(tile * 16 + (row & 3) * 4 + (column & 3));
     }
 
     std::vector<Piece> pieces_;
-    std::vector<Side> sides_;
+    std::vector<Segment> segments_;
     bool are_points_ = false;
     double finest_cell_px_ = 1.5;
     double reach_px_ = -1;
@@ -149,8 +181,10 @@ class CandidateGrid {
     double cells_per_px_ = 1;
     int columns_ = 0;
     int rows_ = 0;
-    std::vector<std::uint32_t> list_of_;  // where each cell's list begins
-    std::vector<std::uint16_t> listed_;   // the lists: how many, and which, rising
+    int tiles_ = 0;  // side by side
+    static constexpr std::uint32_t one_alone = std::uint32_t{1} << 31;
+    std::vector<std::uint32_t> cells_;   // where each one's list begins, or the piece it has alone
+    std::vector<std::uint16_t> listed_;  // the lists: how many, and which, rising
 };
 
 }  // namespace pursuit::tracker

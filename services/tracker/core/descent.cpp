@@ -20,27 +20,21 @@ void descend(Pose& pose, TransformKind transform, const DescentGains& gains,
         const double turn_rad = weight * 2 * gains.angle_rad_px2 * (m.x() * q.y() - m.y() * q.x());
         // (3.8)–(3.11) the scales, from the lengths of event and model point; the paper's affine an
         // axis each, in the body's axes.
-        const Eigen::Vector2d body_x = pose.a.col(0).normalized();
-        const Eigen::Vector2d body_y = pose.a.col(1).normalized();
-        Motion<TransformKind::paper_affine>::Step step;
-        step << 0, 0, turn_rad, 0, 0;
-        if (transform == TransformKind::similarity) {
-            step(3) = step(4) = weight * gains.scale_1_px * (q.norm() - m.norm());
-        } else if (transform == TransformKind::paper_affine) {
-            step(3) =
-                weight * gains.scale_1_px * (std::abs(body_x.dot(q)) - std::abs(body_x.dot(m)));
-            step(4) =
-                weight * gains.scale_1_px * (std::abs(body_y.dot(q)) - std::abs(body_y.dot(m)));
-        }
         if (transform == TransformKind::isometry) {
-            Motion<TransformKind::isometry>::Step rigid;
-            rigid << 0, 0, turn_rad;
-            Motion<TransformKind::isometry>::apply(rigid, pose);
+            Motion<TransformKind::isometry>::Step step;
+            step << 0, 0, turn_rad;
+            Motion<TransformKind::isometry>::apply(step, pose);
         } else if (transform == TransformKind::similarity) {
-            Motion<TransformKind::similarity>::Step similar;
-            similar << 0, 0, turn_rad, step(3);
-            Motion<TransformKind::similarity>::apply(similar, pose);
+            Motion<TransformKind::similarity>::Step step;
+            step << 0, 0, turn_rad, weight * gains.scale_1_px * (q.norm() - m.norm());
+            Motion<TransformKind::similarity>::apply(step, pose);
         } else {
+            const Eigen::Vector2d body_x = pose.a.col(0).normalized();
+            const Eigen::Vector2d body_y = pose.a.col(1).normalized();
+            Motion<TransformKind::paper_affine>::Step step;
+            step << 0, 0, turn_rad,
+                weight * gains.scale_1_px * (std::abs(body_x.dot(q)) - std::abs(body_x.dot(m))),
+                weight * gains.scale_1_px * (std::abs(body_y.dot(q)) - std::abs(body_y.dot(m)));
             Motion<TransformKind::paper_affine>::apply(step, pose);
         }
     }

@@ -44,16 +44,17 @@ class EventClock {
 
     /// px/s, for a contour of effective length L px.
     [[nodiscard]] double speed_px_s(double length_px) const {
-        return time_s_ > 0 ? events_ / time_s_ / (density_ * length_px) : 0;
+        return time_s_ > 0 ? events_ / (time_s_ * density_ * length_px) : 0;
     }
 
     /// Events a px of way.
     [[nodiscard]] double events_per_px(double length_px) const { return density_ * length_px; }
 
     /// Learns from the net way gone since begin_way(); true where a new one shall begin.
-    bool end_way(double way_px, double length_px) {
-        if (way_px < least_way_px) return way_time_s_ > longest_way_s;
-        const double measured = way_events_ / (way_px * length_px);
+    /// way2_px2: its square.
+    bool end_way(double way2_px2, double length_px) {
+        if (way2_px2 < least_way_px * least_way_px) return way_time_s_ > longest_way_s;
+        const double measured = way_events_ / (std::sqrt(way2_px2) * length_px);
         density_ *= std::pow(std::clamp(measured / density_, 0.5, 2.0), 0.3);
         density_ = std::clamp(density_, 0.5, 12.0);
         return true;

@@ -29,23 +29,34 @@ Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     q_ = Eigen::Vector2d(event.x, event.y) - pose_.t_px;
     const double within_px = reach_px(event.t_us);
     if (q_.squaredNorm() > within_px * within_px) return {};
+    const bool wants_points = pull_ == Pull::point;
     contour_.fit(pose_.a, parameters_.gate_px);
-    if (pull_ == Pull::point) contour_.fit_points(pose_.a, parameters_.gate_px);
-    const Eigen::Vector2d x = pose_.a.inverse() * q_;
-    const ImageMetric metric(pose_.a);
-    const CandidateGrid& grid = pull_ == Pull::point ? contour_.points() : contour_.pieces();
-    const auto nearest = grid.nearest(x.x(), x.y(), metric);
+    if (wants_points) contour_.fit_points(pose_.a, parameters_.gate_px);
+    const CandidateGrid& grid = wants_points ? contour_.points() : contour_.pieces();
+    CandidateGrid::Nearest nearest;
+    CandidateGrid::Nearest on_contour;
+    const auto look_up = [&](double x, double y, const auto& metric) {
+        nearest = grid.nearest(x, y, metric);
+        on_contour = wants_points ? contour_.pieces().nearest(x, y, metric) : nearest;
+    };
+    const Eigen::Matrix2d& a = pose_.a;
+    if (transform_ == TransformKind::isometry) {
+        // The inverse of A is its transpose.
+        look_up(a(0, 0) * q_.x() + a(1, 0) * q_.y(), a(0, 1) * q_.x() + a(1, 1) * q_.y(),
+                ModelMetric());
+    } else {
+        const double per_area = 1 / (a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
+        look_up((a(1, 1) * q_.x() - a(0, 1) * q_.y()) * per_area,
+                (a(0, 0) * q_.y() - a(1, 0) * q_.x()) * per_area, ImageMetric(a));
+    }
     if (nearest.piece < 0) return {};
+    if (nearest.squared_px > parameters_.gate_px * parameters_.gate_px) return {};
     distance_px_ = std::sqrt(nearest.squared_px);
-    if (distance_px_ > parameters_.gate_px) return {};
-    const Piece& piece = grid.pieces()[static_cast<std::size_t>(nearest.piece)];
-    m_ << piece.ax + nearest.foot * (piece.bx - piece.ax),
-        piece.ay + nearest.foot * (piece.by - piece.ay);
+    const Segment& segment = grid.segment(nearest.piece);
+    m_ << segment.ax + nearest.foot * segment.dx, segment.ay + nearest.foot * segment.dy;
     t_us_ = event.t_us;
-    const auto on_contour =
-        pull_ == Pull::contour ? nearest : contour_.pieces().nearest(x.x(), x.y(), metric);
     // As of events scattered by a pixel, beside a little clutter.
-    return {distance_px_, 0.4 * std::exp(-0.5 * distance_px_ * distance_px_), 0.02,
+    return {distance_px_, 0.4 * std::exp(-0.5 * nearest.squared_px), 0.02,
             std::sqrt(on_contour.squared_px), on_contour.piece};
 }
 

@@ -34,8 +34,8 @@ constexpr double onset_px2 = 0.5;     // variance, when it begins to move out of
 constexpr double onset_px_s = 200;    // σ of its speed then
 constexpr double silent_events = 10;  // expected and not come: it stands still
 
-double normal_density(double r, double variance) {
-    return std::exp(-0.5 * r * r / variance) / std::sqrt(2 * std::numbers::pi * variance);
+double normal_density(double r2, double per_variance) {
+    return std::exp(-0.5 * r2 * per_variance) * std::sqrt(per_variance * (0.5 / std::numbers::pi));
 }
 
 }  // namespace
@@ -54,6 +54,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     Step twist_sigma = Step::Constant(start_speed_sigma_px_s * per_px);
     twist_sigma.template head<2>().setConstant(start_speed_sigma_px_s);
     filter_.restart(pose, M::twist_of(velocity), pose_sigma, twist_sigma);
+    measure_size();
     filter_.restart_leads(LeadPrior::mean_px(), LeadPrior::covariance_px2());
     lead_prior_.restart();
     clock_.restart();
@@ -82,6 +83,7 @@ void KalmanEstimator<kind>::resume(std::int64_t t_us, const Pose& pose, const Ve
     if (direction.norm() > 0) direction.normalize();
     filter_.add_position_variance((along_px * along_px - resumed_sigma_px * resumed_sigma_px) *
                                   direction * direction.transpose());
+    measure_size();
     most_pose_sigma_px_ = std::max(most_pose_sigma_px, along_px);
     way_begin_ = pose;
     t_us_ = t_us;
@@ -93,15 +95,20 @@ void KalmanEstimator<kind>::set_parameters(const ObjectParameters& parameters) {
 }
 
 template <TransformKind kind>
-double KalmanEstimator<kind>::scale() const {
+void KalmanEstimator<kind>::measure_size() {
     const Eigen::Matrix2d& a = filter_.pose().a;
-    return std::sqrt(std::abs(a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0)));
+    const double area = std::abs(a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
+    const double scale = std::sqrt(area);
+    const double gyration_px = contour_.gyration_px();
+    size_.length_px = 0.6 * contour_.length_px() * scale;
+    size_.gyration_px = gyration_px * scale;
+    size_.per_gyration2 = 1 / (gyration_px * gyration_px * area);
+    size_.extent_px = contour_.radius_px() * a.norm();
 }
 
 template <TransformKind kind>
 double KalmanEstimator<kind>::effective_length_px() const {
-    // 0.6: of a contour that runs every way, the share that faces the motion.
-    return 0.6 * contour_.length_px() * scale() * visible_share_;
+    return size_.length_px * visible_share_;
 }
 
 template <TransformKind kind>
@@ -113,7 +120,9 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     clock_.wait(dt_s);
 
     const double length_px = effective_length_px();
-    const double gyration_px = contour_.gyration_px() * scale();
+    const double gyration_px = size_.gyration_px;
+    // Of the variance of a component: its own unit for 1 px of the contour, squared.
+    const auto unit = [&](int i) { return i < 2 ? 1 : size_.per_gyration2; };
     // Among noise alone nothing tells where it goes: it stands still until there is more.
     const bool stood_still = stands_still_;
     stands_still_ = clutter_.is_noise_alone();
@@ -124,9 +133,8 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     }
     if (stood_still) {
         for (int i = 0; i < Filter::dof; ++i) {
-            const double unit = i < 2 ? 1 : 1 / (gyration_px * gyration_px);
-            filter_.add_variance(i, onset_px2 * unit);
-            filter_.add_variance(Filter::dof + i, onset_px_s * onset_px_s * unit);
+            filter_.add_variance(i, onset_px2 * unit(i));
+            filter_.add_variance(Filter::dof + i, onset_px_s * onset_px_s * unit(i));
         }
     }
     const double told_px_s = clock_.speed_px_s(length_px);
@@ -137,34 +145,32 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     // What shows of it by half tells by half where it turns.
     const double q =
         kappa * kappa * speed_px_s_ * speed_px_s_ * speed_px_s_ * visible_share_ * visible_share_;
-    Step noise = Step::Constant(q / (gyration_px * gyration_px));
+    Step noise = Step::Constant(q * size_.per_gyration2);
     noise.template head<2>().setConstant(q);
     if constexpr (kind == TransformKind::similarity) noise(3) *= 0.2 * 0.2;
     if constexpr (kind == TransformKind::paper_affine) noise.template tail<2>() *= 0.7 * 0.7;
     if constexpr (kind == TransformKind::full_affine) noise.template tail<4>() *= 0.7 * 0.7;
-    const double told_to_move_s =
-        own_px_s > 0 ? silent_events / (clock_.events_per_px(length_px) * own_px_s) : dt_s;
-    filter_.predict(dt_s, std::min(dt_s, told_to_move_s), noise);
+    // It is told to move until so many events that should have come have not.
+    const double expected_hz = clock_.events_per_px(length_px) * own_px_s;
+    const double missed = dt_s * expected_hz;
+    filter_.predict(dt_s, missed > silent_events ? silent_events / expected_hz : dt_s, noise);
 
     // Silence means standing still; less so where what is hidden, and whose the events beside it
     // are, is known by half only. (With 0.3 a car fell behind half way under a van.)
     const double still_share = visible_share_ < 0.95 ? 0.1 : 0.6;
     if (own_px_s > 0 && told_px_s < still_share * own_px_s) {
-        const double missed = dt_s * clock_.events_per_px(length_px) * own_px_s;
         const double f =
             std::min(1.0, missed / silent_events) * (1 - told_px_s / own_px_s / still_share);
         filter_.slow_down(1 - f);
         for (int i = 0; i < Filter::dof; ++i) {
-            const double unit = i < 2 ? 1 : 1 / (gyration_px * gyration_px);
-            filter_.add_variance(Filter::dof + i, f * own_px_s * own_px_s * unit);
+            filter_.add_variance(Filter::dof + i, f * own_px_s * own_px_s * unit(i));
         }
     }
     const double speed_sigma = std::max(told_px_s, std::min(own_px_s, 3 * told_px_s)) + 30;
     for (int i = 0; i < Filter::dof; ++i) {
-        const double unit = i < 2 ? 1 : 1 / (gyration_px * gyration_px);
-        filter_.limit_variance(i, most_pose_sigma_px_ * most_pose_sigma_px_ * unit);
+        filter_.limit_variance(i, most_pose_sigma_px_ * most_pose_sigma_px_ * unit(i));
         if (clock_.is_told()) {
-            filter_.limit_variance(Filter::dof + i, speed_sigma * speed_sigma * unit);
+            filter_.limit_variance(Filter::dof + i, speed_sigma * speed_sigma * unit(i));
         }
     }
     for (int i = 0; i < Filter::leads; ++i) {
@@ -176,8 +182,52 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
 template <TransformKind kind>
 double KalmanEstimator<kind>::reach_px(std::int64_t t_us) const {
     const double gone_s = t_us_ < 0 ? 0 : static_cast<double>(t_us - t_us_) * 1e-6;
-    return contour_.radius_px() * filter_.pose().a.norm() + Clutter::far_to_px + 1 +
-           2 * speed_px_s_ * gone_s;
+    return size_.extent_px + Clutter::far_to_px + 1 + 2 * speed_px_s_ * gone_s;
+}
+
+template <TransformKind kind>
+auto KalmanEstimator<kind>::nearest_to(const Eigen::Vector2d& q) const -> Place {
+    const Eigen::Matrix2d& a = filter_.pose().a;
+    const CandidateGrid& grid = contour_.pieces();
+    CandidateGrid::Nearest nearest;
+    if constexpr (keeps_angles) {
+        // The inverse of A is its transpose, but for the scale.
+        Eigen::Vector2d x(a(0, 0) * q.x() + a(1, 0) * q.y(), a(0, 0) * q.y() - a(1, 0) * q.x());
+        double scale2 = 1;
+        if constexpr (kind == TransformKind::similarity) {
+            scale2 = a(0, 0) * a(0, 0) + a(1, 0) * a(1, 0);
+            x /= scale2;
+        }
+        nearest = grid.nearest(x.x(), x.y(), ModelMetric());
+        nearest.squared_px *= scale2;
+    } else {
+        const double per_area = 1 / (a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
+        nearest = grid.nearest((a(1, 1) * q.x() - a(0, 1) * q.y()) * per_area,
+                               (a(0, 0) * q.y() - a(1, 0) * q.x()) * per_area, ImageMetric(a));
+    }
+    Place place;
+    if (nearest.piece < 0 || nearest.squared_px > Clutter::far_to_px * Clutter::far_to_px) {
+        return place;
+    }
+    place.piece = nearest.piece;
+    place.squared_px = nearest.squared_px;
+    const Segment& segment = grid.segment(nearest.piece);
+    place.model_px << segment.ax + nearest.foot * segment.dx,
+        segment.ay + nearest.foot * segment.dy;
+    place.arm_px = a * place.model_px;
+    const Eigen::Vector2d off = q - place.arm_px;
+    if (!(segment.per_length2 > 0)) {
+        const double distance_px = std::sqrt(place.squared_px);
+        place.n = distance_px > 1e-9 ? Eigen::Vector2d(off / distance_px) : Eigen::Vector2d(1, 0);
+    } else if constexpr (kind == TransformKind::isometry) {
+        place.n = a * Eigen::Vector2d(segment.nx, segment.ny);
+    } else {
+        const Eigen::Vector2d along = a * Eigen::Vector2d(segment.dx, segment.dy);
+        const double per_length = 1 / along.norm();
+        place.n << along.y() * per_length, -along.x() * per_length;
+    }
+    place.r_px = place.n.dot(off);
+    return place;
 }
 
 template <TransformKind kind>
@@ -189,100 +239,84 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     }
     predict_to(event.t_us);
     const Pose& pose = filter_.pose();
+    if constexpr (kind != TransformKind::isometry) {
+        contour_.fit(pose.a, Clutter::far_to_px + 1);
+    }
     const double area = pose.a(0, 0) * pose.a(1, 1) - pose.a(0, 1) * pose.a(1, 0);
-    contour_.fit(pose.a, Clutter::far_to_px + 1);
     if (!(std::abs(area - sampled_for_area_) < 0.3 * sampled_for_area_)) {
         clutter_.sample(contour_, pose.a);
         sampled_for_area_ = area;
     }
     clutter_.reach(event.t_us);
-    const ImageMetric metric(pose.a);
-    const Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - pose.t_px;
-    const Eigen::Vector2d x((pose.a(1, 1) * q.x() - pose.a(0, 1) * q.y()) / area,
-                            (pose.a(0, 0) * q.y() - pose.a(1, 0) * q.x()) / area);
-    const auto nearest = contour_.pieces().nearest(x.x(), x.y(), metric);
-    if (nearest.piece < 0) return {};
-    const double distance_px = std::sqrt(nearest.squared_px);
-    if (distance_px > Clutter::far_to_px) return {};
-
-    const Piece& piece = contour_.pieces().pieces()[static_cast<std::size_t>(nearest.piece)];
-    const Eigen::Vector2d m(piece.ax + nearest.foot * (piece.bx - piece.ax),
-                            piece.ay + nearest.foot * (piece.by - piece.ay));
-    const Eigen::Vector2d d = pose.a * m;
-    const Eigen::Vector2d along =
-        pose.a * Eigen::Vector2d(piece.bx - piece.ax, piece.by - piece.ay);
-    const double length_px = along.norm();
-    const Eigen::Vector2d off = q - d;
-    Eigen::Vector2d n;
-    if (length_px > 1e-9) {
-        n << along.y() / length_px, -along.x() / length_px;
-    } else if (distance_px > 1e-9) {
-        n = off / distance_px;
-    } else {
-        n << 1, 0;
-    }
-    const double r0_px = n.dot(off);
-    const double past_end2 = nearest.squared_px - r0_px * r0_px;
+    const Place place = nearest_to(Eigen::Vector2d(event.x, event.y) - pose.t_px);
+    if (place.piece < 0) return {};
+    const double past_end2 = place.squared_px - place.r_px * place.r_px;
     if (past_end2 > Clutter::overshoot_px * Clutter::overshoot_px) return {};
 
-    const Step j = M::along(n, d, pose.a, m);
-    const Eigen::Vector2d middle((piece.ax + piece.bx) / 2, (piece.ay + piece.by) / 2);
-    const double h = backlash_.gone(nearest.piece, pose.t_px + pose.a * middle, n);
+    const Step j = M::along(place.n, place.arm_px, pose.a, place.model_px);
+    const Segment& segment = contour_.pieces().segment(place.piece);
+    const Eigen::Vector2d middle(segment.ax + segment.dx / 2, segment.ay + segment.dy / 2);
+    const double h = backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
     const bool subsequent = static_cast<double>(since_same_us) * 1e-6 * speed_px_s_ < same_edge_px;
     const int lead = 2 * (event.polarity & 1) + (subsequent ? 1 : 0);
-    const double r_px = r0_px - filter_.lead_px()(lead) * h;
-    if (std::abs(r_px) > Clutter::far_from_px && std::abs(r_px) < Clutter::far_to_px) {
-        clutter_.count_far(nearest.piece, r_px);
+    const double r_px = place.r_px - filter_.lead_px()(lead) * h;
+    const double distance_px = std::abs(r_px);
+    if (distance_px > Clutter::far_from_px && distance_px < Clutter::far_to_px) {
+        clutter_.count_far(place.piece, r_px);
     }
-    if (std::abs(r_px) > parameters_.gate_px) return {};
+    if (distance_px > parameters_.gate_px) return {};
     clutter_.pass_near();
     measured_.row = filter_.row(j, lead, h);
     measured_.r_px = r_px;
-    measured_.piece = nearest.piece;
+    measured_.piece = place.piece;
     measured_.lead = lead;
     const double sigma_px = subsequent ? subsequent_noise_px : first_noise_px;
     measured_.noise_px2 = sigma_px * sigma_px * noise_gain_;
 
     const double near_variance = measured_.row.h_p_h + measured_.noise_px2;
-    measured_.near_likelihood = (1 - tail_share) * normal_density(r_px, near_variance);
-    measured_.far_likelihood = tail_share * normal_density(r_px, near_variance + tail_px2);
-    return {std::abs(r_px), measured_.near_likelihood + measured_.far_likelihood,
-            clutter_.density(nearest.piece, r_px), std::abs(r_px), nearest.piece};
+    measured_.per_near_variance = 1 / near_variance;
+    measured_.near_likelihood =
+        (1 - tail_share) * normal_density(r_px * r_px, measured_.per_near_variance);
+    measured_.far_likelihood =
+        tail_share * normal_density(r_px * r_px, 1 / (near_variance + tail_px2));
+    measured_.clutter = clutter_.density(place.piece, r_px);
+    return {distance_px, measured_.near_likelihood + measured_.far_likelihood, measured_.clutter,
+            distance_px, place.piece};
 }
 
 template <TransformKind kind>
 bool KalmanEstimator<kind>::take(double weight) {
     const double r = measured_.r_px;
     const double likelihood = measured_.near_likelihood + measured_.far_likelihood;
-    const double share = weight * likelihood / (likelihood + clutter_.density(measured_.piece, r));
+    const double share = weight * likelihood / (likelihood + measured_.clutter);
     const bool is_told = clutter_.is_measured();
     clutter_.count_near(measured_.piece, share);
     if (!is_told || stands_still_ || share < least_share) return false;
 
     // The mean of both kinds' information.
     const double near_noise = measured_.noise_px2;
-    const double noise = likelihood / (measured_.near_likelihood / near_noise +
-                                       measured_.far_likelihood / (near_noise + tail_px2));
+    const double far_noise = near_noise + tail_px2;
+    const double noise =
+        likelihood * near_noise * far_noise /
+        (measured_.near_likelihood * far_noise + measured_.far_likelihood * near_noise);
     filter_.correct(measured_.row, r, measured_.row.h_p_h + noise, share);
     if (lead_prior_.count(measured_.lead, share)) {
         filter_.tell_leads(lead_prior_.weights(), LeadPrior::held_px, LeadPrior::held_sigma_px);
     }
     filter_.limit_leads(least_lead_px, most_lead_px);
-    const double surprise = std::min(r * r / (measured_.row.h_p_h + near_noise), 9.0) / 1.3 - 1;
+    if constexpr (kind != TransformKind::isometry) measure_size();
+    const double surprise = std::min(r * r * measured_.per_near_variance, 9.0) / 1.3 - 1;
     noise_gain_ = std::clamp(noise_gain_ * (1 + 0.001 * share * surprise), 0.2, 4.0);
     residual_px_ += 0.01 * share * (std::abs(r) - residual_px_);
 
     most_pose_sigma_px_ =
         most_pose_sigma_px + bound_settles * (most_pose_sigma_px_ - most_pose_sigma_px);
     clock_.count(share);
-    const double length_px = effective_length_px();
-    const double gyration_px = contour_.gyration_px() * scale();
     const Pose& pose = filter_.pose();
-    const double way_px =
-        std::sqrt((pose.t_px - way_begin_.t_px).squaredNorm() +
-                  0.5 * contour_.gyration_px() * gyration_px / std::max(scale(), 1e-9) *
-                      (pose.a - way_begin_.a).squaredNorm());
-    if (clock_.end_way(way_px, length_px)) {
+    const double gyration_px = contour_.gyration_px();
+    const double way2 = (pose.t_px - way_begin_.t_px).squaredNorm() +
+                        0.5 * gyration_px * gyration_px * (pose.a - way_begin_.a).squaredNorm();
+    if (clock_.end_way(way2, effective_length_px())) {
         clock_.begin_way();
         way_begin_ = pose;
     }
@@ -295,9 +329,8 @@ void KalmanEstimator<kind>::describe(std::int64_t t_us, PoseRecord& record) cons
     Step twist = filter_.twist();
     if (t_us_ >= 0) {
         const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
-        const double gyration_px = contour_.gyration_px() * scale();
         const double own_px_s = std::sqrt(twist.template head<2>().squaredNorm() +
-                                          M::turning_speed2(twist, gyration_px));
+                                          M::turning_speed2(twist, size_.gyration_px));
         const double expected_hz = clock_.events_per_px(effective_length_px()) * own_px_s;
         // Coasts as long as silence does not tell that it stands still.
         const double moving_s = expected_hz > 0 ? std::min(dt_s, silent_events / expected_hz) : 0;
@@ -313,7 +346,7 @@ void KalmanEstimator<kind>::describe_covariance(std::int64_t t_us, PoseRecord& r
     // As far as the state is known, and how far it can have gone since the last event near it.
     using Square = Eigen::Matrix<double, Filter::dof, Filter::dof>;
     const double dt_s = t_us_ < 0 ? 0 : static_cast<double>(t_us - t_us_) * 1e-6;
-    const auto& p = filter_.covariance();
+    const typename Filter::Covariance p = filter_.covariance();
     const Square pv = p.template block<Filter::dof, Filter::dof>(0, Filter::dof);
     const Square vv = p.template block<Filter::dof, Filter::dof>(Filter::dof, Filter::dof);
     const Square pose = p.template topLeftCorner<Filter::dof, Filter::dof>() +

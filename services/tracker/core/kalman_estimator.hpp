@@ -41,9 +41,25 @@ class KalmanEstimator : public Estimator {
     using M = Motion<kind>;
     using Step = typename M::Step;
 
+    // An isometry or a similarity: what is nearest in the image is so in the model frame.
+    static constexpr bool keeps_angles =
+        kind == TransformKind::isometry || kind == TransformKind::similarity;
+
     void predict_to(std::int64_t t_us);
-    [[nodiscard]] double scale() const;
+    void measure_size();
     [[nodiscard]] double effective_length_px() const;
+
+    /// The place of the contour that is nearest to an event.
+    struct Place {
+        std::int32_t piece = -1;   ///< -1: none within reach.
+        Eigen::Vector2d model_px;  ///< In the model frame.
+        Eigen::Vector2d arm_px;    ///< In the image, about T.
+        Eigen::Vector2d n;         ///< The contour's unit normal there, image.
+        double r_px = 0;           ///< Along it, from the place to the event.
+        double squared_px = 0;     ///< The distance, squared.
+    };
+    /// q: the event about T, image px.
+    [[nodiscard]] Place nearest_to(const Eigen::Vector2d& q) const;
 
     /// What approach() found, for take().
     struct Measurement {
@@ -52,13 +68,24 @@ class KalmanEstimator : public Estimator {
         std::int32_t piece;
         int lead;
         double noise_px2;
+        double per_near_variance;
         double near_likelihood;
         double far_likelihood;
+        double clutter;
+    };
+
+    /// How large the contour is in the image.
+    struct Size {
+        double length_px = 0;  ///< Of it, 0.6: of one that runs every way, what faces the motion.
+        double gyration_px = 0;
+        double per_gyration2 = 0;  ///< 1/gyration², 1/px²
+        double extent_px = 0;      ///< No point is farther from T.
     };
 
     Contour contour_;
     ObjectParameters parameters_;
     Filter filter_;
+    Size size_;
     EventClock clock_;
     Clutter clutter_;
     Backlash backlash_;

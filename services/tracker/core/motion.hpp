@@ -54,19 +54,22 @@ struct Motion {
             // On the circle to the fourth order.
             const double s = angle * (1 - angle * angle / 6);
             const double c = 1 - angle * angle * (0.5 - angle * angle / 24);
-            Eigen::Matrix2d r;
-            r << c, -s, s, c;
-            pose.a = r * pose.a;
+            // Of what keeps its angles one column tells the other.
+            const double x = c * pose.a(0, 0) - s * pose.a(1, 0);
+            const double y = s * pose.a(0, 0) + c * pose.a(1, 0);
             if constexpr (kind == TransformKind::isometry) {
                 // Back onto the circle: one Newton step of 1/sqrt.
-                pose.a *= 1.5 - 0.5 * pose.a.col(0).squaredNorm();
-                pose.a.col(1) << -pose.a(1, 0), pose.a(0, 0);
+                const double onto = 1.5 - 0.5 * (x * x + y * y);
+                pose.a << x * onto, -(y * onto), y * onto, x * onto;
             } else if constexpr (kind == TransformKind::similarity) {
-                pose.a.col(0) *= grown(step(3));
-                pose.a.col(1) << -pose.a(1, 0), pose.a(0, 0);
+                const double by = grown(step(3));
+                pose.a << x * by, -(y * by), y * by, x * by;
             } else {
+                const Eigen::Vector2d other(c * pose.a(0, 1) - s * pose.a(1, 1),
+                                            s * pose.a(0, 1) + c * pose.a(1, 1));
+                pose.a.col(0) << x, y;
                 pose.a.col(0) *= grown(step(3));
-                pose.a.col(1) *= grown(step(4));
+                pose.a.col(1) = other * grown(step(4));
                 // Keep the axes at right angles, against rounding.
                 const double length2 = pose.a.col(0).squaredNorm();
                 pose.a.col(1) -= pose.a.col(0) * (pose.a.col(0).dot(pose.a.col(1)) / length2);

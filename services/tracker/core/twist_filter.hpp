@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <utility>
 
 #include "services/tracker/core/motion.hpp"
 
@@ -11,6 +12,9 @@ namespace pursuit::tracker {
 /// The Kalman filter proper: pose, twist and four event leads, and their covariance about the
 /// current pose (the pose itself is no vector: corrections are steps of Motion). A twist is in
 /// image axes about T; it drifts as a random walk, and the velocity of T turns with ω.
+///
+/// The covariance is symmetric: of each block outside the diagonal of blocks (pose, twist, leads)
+/// only the lower one is kept up, and of the twist's own block the lower half.
 template <TransformKind kind>
 class TwistFilter {
  public:
@@ -47,20 +51,16 @@ class TwistFilter {
     void predict(double dt_s, double moving_s, const Step& noise) {
         move(moving_s, pose_, twist_);
         auto pp = covariance_.template topLeftCorner<dof, dof>();
-        auto pv = covariance_.template block<dof, dof>(0, dof);
         auto vp = covariance_.template block<dof, dof>(dof, 0);
-        auto vv = covariance_.template block<dof, dof>(dof, dof);
-        auto pb = covariance_.template block<dof, leads>(0, 2 * dof);
         auto bp = covariance_.template block<leads, dof>(2 * dof, 0);
+        const Square vv = twist_covariance();
         // With F = [I dt; 0 I].
-        pp += dt_s * (pv + vp) + dt_s * dt_s * vv;
-        pv += dt_s * vv;
-        pb += dt_s * covariance_.template block<dof, leads>(dof, 2 * dof);
+        pp += dt_s * (vp + vp.transpose()) + dt_s * dt_s * vv;
+        vp += dt_s * vv;
+        bp += dt_s * covariance_.template block<leads, dof>(2 * dof, dof);
         pp.diagonal() += noise * (dt_s * dt_s * dt_s / 3);
-        pv.diagonal() += noise * (dt_s * dt_s / 2);
-        vv.diagonal() += noise * dt_s;
-        vp = pv.transpose();
-        bp = pb.transpose();
+        vp.diagonal() += noise * (dt_s * dt_s / 2);
+        covariance_.diagonal().template segment<dof>(dof) += noise * dt_s;
     }
 
     /// Where pose and twist are dt_s later.
@@ -80,8 +80,11 @@ class TwistFilter {
     [[nodiscard]] Row row(const Step& j, int lead, double h) const {
         Row row;
         row.p_h.noalias() = covariance_.template leftCols<dof>() * j;
-        row.p_h += covariance_.col(2 * dof + lead) * h;
-        row.h_p_h = row.p_h.template head<dof>().dot(j) + row.p_h(2 * dof + lead) * h;
+        const int at = 2 * dof + lead;
+        row.p_h.template head<2 * dof>() +=
+            covariance_.row(at).template head<2 * dof>().transpose() * h;
+        row.p_h.template tail<leads>() += covariance_.col(at).template tail<leads>() * h;
+        row.h_p_h = row.p_h.template head<dof>().dot(j) + row.p_h(at) * h;
         return row;
     }
 
@@ -92,12 +95,16 @@ class TwistFilter {
         M::apply(gain.template head<dof>() * residual_px, pose_);
         twist_ += gain.template segment<dof>(dof) * residual_px;
         lead_px_ += gain.template tail<leads>() * residual_px;
-        covariance_.noalias() -= gain * row.p_h.transpose();
+        reduce(gain, row.p_h, std::make_integer_sequence<int, size>());
     }
 
     /// Corrects by what is known of the leads besides the events: weights · leads = value ± sigma.
     void tell_leads(const Leads& weights, double value_px, double sigma_px) {
-        const State p_h = covariance_.template rightCols<leads>() * weights;
+        State p_h;
+        p_h.template head<2 * dof>() =
+            covariance_.template bottomLeftCorner<leads, 2 * dof>().transpose() * weights;
+        p_h.template tail<leads>() =
+            covariance_.template bottomRightCorner<leads, leads>() * weights;
         const double variance = weights.dot(p_h.template tail<leads>()) + sigma_px * sigma_px;
         correct({p_h, variance}, value_px - weights.dot(lead_px_), variance, 1);
     }
@@ -122,9 +129,33 @@ class TwistFilter {
     [[nodiscard]] const Pose& pose() const { return pose_; }
     [[nodiscard]] const Step& twist() const { return twist_; }
     [[nodiscard]] const Leads& lead_px() const { return lead_px_; }
-    [[nodiscard]] const Covariance& covariance() const { return covariance_; }
+    [[nodiscard]] Covariance covariance() const {
+        return covariance_.template selfadjointView<Eigen::Lower>();
+    }
 
  private:
+    using Square = Eigen::Matrix<double, dof, dof>;
+
+    [[nodiscard]] Square twist_covariance() const {
+        return covariance_.template block<dof, dof>(dof, dof)
+            .template selfadjointView<Eigen::Lower>();
+    }
+
+    // From the first row of a column that is kept up, or an even one before it: two rows at a time.
+    static constexpr int first_row(int column) {
+        return column < dof ? 0 : column < 2 * dof ? column & ~1 : 2 * dof;
+    }
+    template <int column>
+    void reduce_column(const State& gain, const State& p_h) {
+        constexpr int rows = size - first_row(column);
+        covariance_.col(column).template tail<rows>() -= gain.template tail<rows>() * p_h(column);
+    }
+    // P ← P − K·(P·Hᵀ)ᵀ
+    template <int... columns>
+    void reduce(const State& gain, const State& p_h, std::integer_sequence<int, columns...>) {
+        (reduce_column<columns>(gain, p_h), ...);
+    }
+
     Pose pose_;
     Step twist_ = Step::Zero();
     Leads lead_px_ = Leads::Zero();

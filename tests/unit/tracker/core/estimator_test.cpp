@@ -105,9 +105,9 @@ TEST(EventClock, learns_the_density_only_from_ways_that_were_gone) {
     EventClock clock;
     clock.begin_way();
     for (int i = 0; i < 1000; ++i) clock.count(1);
-    EXPECT_FALSE(clock.end_way(3.9, 50));
+    EXPECT_FALSE(clock.end_way(3.9 * 3.9, 50));
     EXPECT_EQ(clock.density(), 2);
-    EXPECT_TRUE(clock.end_way(4, 50));  // 1000/(4·50) = 5 events/px²
+    EXPECT_TRUE(clock.end_way(4 * 4, 50));  // 1000/(4·50) = 5 events/px²
     EXPECT_NEAR(clock.density(), 2 * std::pow(2, 0.3), 1e-12);
     clock.begin_way();
     clock.wait(0.31);
