@@ -28,7 +28,7 @@ Cover::Cover(const Contour& contour) {
         const Piece& piece = pieces[i];
         const Eigen::Vector2d along(piece.bx - piece.ax, piece.by - piece.ay);
         const auto part = static_cast<Eigen::Index>(i / of_one);
-        part_of_.push_back(static_cast<std::uint8_t>(part));
+        part_of_.push_back(static_cast<std::uint16_t>(part));
         if (i % of_one == 0) {
             piece_.push_back(static_cast<std::int32_t>(i));
             middle_px_.x(part) = (piece.ax + piece.bx) / 2;

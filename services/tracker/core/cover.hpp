@@ -38,18 +38,18 @@ class Cover {
 
     static constexpr std::size_t sectors = 20;
     static constexpr int window_events = 50;
-    static constexpr int most_parts = 128;
+    static constexpr int most_parts = 1024;
 
     using Numbers = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_parts, 1>;
     struct Vectors {
         Numbers x, y;
     };
 
-    // Up to 128 pieces are a part each; of more, several that follow each other are one.
-    std::vector<std::uint8_t> part_of_;  // by piece
-    std::vector<std::size_t> sector_;    // by part
-    std::vector<std::int32_t> piece_;    // its first
-    Vectors middle_px_;                  // model frame
+    // Up to 1024 pieces are a part each; of more, several that follow each other are one.
+    std::vector<std::uint16_t> part_of_;  // by piece
+    std::vector<std::size_t> sector_;     // by part
+    std::vector<std::int32_t> piece_;     // its first
+    Vectors middle_px_;                   // model frame
     Vectors along_px_;
     std::array<double, sectors> counted_{};
     std::array<double, sectors> expected_{};

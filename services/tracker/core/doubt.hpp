@@ -20,8 +20,9 @@ class Doubt {
  public:
     /// What a search around the pose found.
     struct Finding {
-        bool is_here = true;   ///< The best lies where the object is thought to be …
-        bool is_sure = false;  ///< … and by itself tells.
+        bool is_here = true;   ///< The best lies where the object is thought to be.
+        bool is_told = true;   ///< Whether what was found is worth anything …
+        bool is_sure = false;  ///< … and tells by itself.
         double gain = 0;       ///< How much more of the contour the best explains.
         Eigen::Vector2d off_px = Eigen::Vector2d::Zero();  ///< Of the best from the pose.
     };
@@ -48,6 +49,7 @@ class Doubt {
     bool take(std::int64_t t_us, const Finding& finding) {
         due_us_ = t_us + (finding.is_here ? next_us : soon_us) * std::clamp(tries_, 2, 6) / 2;
         if (++tries_ >= most_tries) wanted_ = 0;
+        if (!finding.is_told) return false;
         if (finding.is_here) {
             for_move_ = std::min(for_move_, 0.0) - usual_gain;
         } else if (for_move_ <= 0 || (finding.off_px - off_px_).norm() < same_off_px) {

@@ -147,7 +147,7 @@ void Seeker::end_check(std::int64_t t_us, Track& track) {
 void Seeker::look_again(std::int64_t t_us, const Track& track, SearchRange again) {
     again.reach_px = again.usual_distance_px = again_reach_px;
     again.angle_rad = again_angle_rad;
-    again.log_scale = track.has_fixed_scale() ? 0 : again_log_scale;
+    again.log_scale = track.has_fixed_scale() || is_check_ ? 0 : again_log_scale;
     gather(t_us, again, track.radius_px(),
            static_cast<std::size_t>(events_per_px * track.contour().length_px()));
     if (again.going) lead_on(t_us, *again.going);

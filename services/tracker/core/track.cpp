@@ -44,6 +44,7 @@ constexpr double silent_events = 30;
 constexpr std::int64_t silent_us = 3'000;
 constexpr double unseen_way_px = 5;  // and may have gone so far meanwhile
 constexpr double same_px = 2.5;
+constexpr double least_told = 0.45;  // score
 constexpr int start_confirmations = 3;
 constexpr int found_confirmations = 2;
 
@@ -213,7 +214,6 @@ std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) c
         range.since_us = doubt_.since_us();
         range.reach_px = check_reach_px;
         range.angle_rad = check_angle_rad;
-        range.log_scale = has_fixed_scale() ? 0 : near_log_scale;
         range.usual_distance_px = check_reach_px / 2;
         // By turns: as it is thought to go, and as if nothing were known.
         const bool leads_on = doubt_.tries() % 2 == 0;
@@ -270,7 +270,10 @@ Doubt::Finding Track::compare(const std::optional<ShapeSearch::Found>& found, co
         contour_.gyration_px() * (found->pose.a - checked.a).norm() / std::numbers::sqrt2;
     finding.is_here = std::hypot(finding.off_px.norm(), turned_px) < same_px;
     finding.is_sure = found->is_sure;
-    finding.gain = found->score - own_score;
+    // What was extracted from a recording fits in part only, wherever it is.
+    const bool is_worth_it = found->score > least_told;
+    finding.is_told = found->is_sure || (is_worth_it && (contour_.is_outline() || finding.is_here));
+    finding.gain = found->score - own_score - (contour_.is_outline() ? 0 : 0.2);
     return finding;
 }
 

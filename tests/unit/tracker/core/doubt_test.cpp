@@ -43,9 +43,9 @@ TEST(Coast, goes_straight_on_where_it_does_not_turn_and_no_longer_than_asked) {
     EXPECT_LT((coast.at(900'000, 0.1).pose.t_px - Eigen::Vector2d(20, 15)).norm(), 1e-9);
 }
 
-Doubt::Finding here(bool is_sure) { return {true, is_sure, 0.02, {0, 0}}; }
+Doubt::Finding here(bool is_sure) { return {true, true, is_sure, 0.02, {0, 0}}; }
 Doubt::Finding elsewhere(bool is_sure, double gain, double x_px = 9) {
-    return {false, is_sure, gain, {x_px, 0}};
+    return {false, true, is_sure, gain, {x_px, 0}};
 }
 
 TEST(Doubt, is_settled_by_as_many_sure_findings_as_were_asked_for) {
