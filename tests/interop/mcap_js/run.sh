@@ -20,6 +20,12 @@ mkdir -p "$build"
 cp "$source"/*.mjs "$build"
 if ! cmp -s "$source/package.json" "$build/installed.json"; then
     cp "$source/package.json" "$build"
+    # Where the registry is out of reach, npm itself takes two minutes to say so.
+    answer=$(cd "$build" && timeout 20 npm view @mcap/core name --fetch-retries=1 \
+        --fetch-retry-mintimeout=1000 --fetch-timeout=10000 2>&1) || {
+        reason=$(grep -E '^npm (error|ERR!) (code|[a-z]+ request)' <<<"$answer" | tr '\n' ' ' || true)
+        skip "the registry of npm does not answer: ${reason:-nothing within 20 s}"
+    }
     log=$(cd "$build" && timeout 120 npm install --no-package-lock --no-audit --no-fund 2>&1) ||
         skip "npm could not install the reader: $(tail -n 3 <<<"$log" | tr '\n' ' ')"
     cp "$source/package.json" "$build/installed.json"
