@@ -22,7 +22,7 @@ Pose swinging(double t_us) {
                    0.6 * std::sin(2.5 * t_s));
 }
 
-Tracker with_arrow(const Pose& start) {
+Tracker that_follows_an_arrow(const Pose& start) {
     Tracker tracker = std::move(*Tracker::create({}));
     tracker.begin_stream(small_sensor, 1);
     Registration registration;
@@ -40,7 +40,7 @@ TEST(Life, of_a_still_object_stays_tracking_with_falling_confidence) {
     auto events = outline_events(arrow(), truth, 0, 500'000, 60, 5, small_sensor, 1);
     const auto noise = outline_events(arrow(), truth, 500'000, 3'000'000, 0, 5, small_sensor, 2);
     events.insert(events.end(), noise.begin(), noise.end());
-    Tracker tracker = with_arrow(truth(0));
+    Tracker tracker = that_follows_an_arrow(truth(0));
     Poses poses;
     tracker.process(events, poses);
     tracker.advance(6'000'000, poses);
@@ -57,7 +57,7 @@ TEST(Life, finds_an_object_that_starts_pixels_away) {
         for (const double direction : {0.0, 1.6, 3.1, 4.7}) {
             Pose start = swinging(0);
             start.t_px += off_px * Eigen::Vector2d(std::cos(direction), std::sin(direction));
-            Tracker tracker = with_arrow(start);
+            Tracker tracker = that_follows_an_arrow(start);
             Poses poses;
             tracker.process(outline_events(arrow(), swinging, 0, 1'000'000, 60, 5, small_sensor, 3),
                             poses);
@@ -70,7 +70,7 @@ TEST(Life, finds_an_object_that_starts_pixels_away) {
 
 TEST(Life, never_says_confidently_that_another_shape_is_the_object) {
     const Shape box = test::polygon("box", {{-22, -22}, {22, -22}, {22, 22}, {-22, 22}});
-    Tracker tracker = with_arrow(swinging(0));
+    Tracker tracker = that_follows_an_arrow(swinging(0));
     Poses poses;
     tracker.process(outline_events(box, swinging, 0, 2'000'000, 60, 5, small_sensor, 4), poses);
     int confident = 0;
@@ -86,7 +86,7 @@ TEST(Life, lets_go_within_100_ms_of_an_object_that_is_replaced) {
     auto events = outline_events(arrow(), swinging, 0, 800'000, 60, 5, small_sensor, 5);
     const auto other = outline_events(box, swinging, 800'000, 2'500'000, 60, 5, small_sensor, 6);
     events.insert(events.end(), other.begin(), other.end());
-    Tracker tracker = with_arrow(swinging(0));
+    Tracker tracker = that_follows_an_arrow(swinging(0));
     Poses poses;
     tracker.process(events, poses);
     for (const auto& row : poses.rows) {
@@ -107,7 +107,7 @@ TEST(Life, goes_on_after_a_gap_in_the_stream) {
         const auto after =
             outline_events(arrow(), swinging, 700'000 + gap_us, 1'500'000, 60, 5, small_sensor, 8);
         events.insert(events.end(), after.begin(), after.end());
-        Tracker tracker = with_arrow(swinging(0));
+        Tracker tracker = that_follows_an_arrow(swinging(0));
         Poses poses;
         tracker.process(events, poses);
         EXPECT_EQ(last(poses).state, TrackState::tracking) << gap_us;
@@ -116,7 +116,7 @@ TEST(Life, goes_on_after_a_gap_in_the_stream) {
 }
 
 TEST(Life, finds_its_object_again_in_a_new_stream_around_the_last_pose) {
-    Tracker tracker = with_arrow(swinging(0));
+    Tracker tracker = that_follows_an_arrow(swinging(0));
     Poses poses;
     tracker.process(outline_events(arrow(), swinging, 0, 600'000, 60, 5, small_sensor, 9), poses);
     ASSERT_EQ(last(poses).state, TrackState::tracking);
