@@ -2,6 +2,13 @@
 
 find_program(FASTDDSGEN_PATH NAMES fastddsgen REQUIRED)
 
+# What others' generators write is not what our sanitizer build is to examine: it is built as their
+# libraries are, without.
+set(pursuit_generated_options -g0)
+if(PURSUIT_SANITIZE MATCHES "address")
+    list(APPEND pursuit_generated_options -O0 -fno-sanitize=all)
+endif()
+
 # pursuit_idl_library(NAME IDL a.idl b.idl …): compiles IDL files by fastddsgen into one library.
 # Included files are no dependency that fastddsgen reports, so each file depends on all of them;
 # every output is declared, because some of its failures exit with 0.
@@ -30,7 +37,7 @@ function(pursuit_idl_library name)
     add_library(${name} STATIC ${sources})
     target_include_directories(${name} SYSTEM PUBLIC ${out})
     target_link_libraries(${name} PUBLIC pursuit_options fastcdr fastrtps)
-    target_compile_options(${name} PRIVATE -g0)
+    target_compile_options(${name} PRIVATE ${pursuit_generated_options})
     pursuit_unity(${name} "${sources}" "")
 endfunction()
 
@@ -44,5 +51,5 @@ function(pursuit_proto_library name)
                       IMPORT_DIRS ${CMAKE_CURRENT_SOURCE_DIR} ${Protobuf_INCLUDE_DIRS})
     target_include_directories(${name} SYSTEM PUBLIC ${out})
     target_link_libraries(${name} PUBLIC pursuit_options protobuf::libprotobuf)
-    target_compile_options(${name} PRIVATE -g0 $<$<CONFIG:Release>:-O1>)
+    target_compile_options(${name} PRIVATE ${pursuit_generated_options} $<$<CONFIG:Release>:-O1>)
 endfunction()

@@ -38,10 +38,13 @@ cmake --build --preset asan --target unit_tests
 
 step "unit tests, sanitized"
 # Life.* follows objects through noise and judges where they end: that depends on the compiler's
-# rounding, and its bounds are those of the release build, which runs it below; as it does ten million
-# steps of one loop, which say no more with sanitizers.
-echo "left to the release build: Life.*, Descent.*ten_million*"
-GTEST_FILTER='-Life.*:Descent.*ten_million*' ctest --test-dir build/asan -L unit --output-on-failure -j2
+# rounding, and its bounds are those of the release build, which runs it below; as it does ten
+# million steps of one loop, and two of four scenes looked at pixel by pixel, which say no more with
+# sanitizers.
+left_out='Life.*:Descent.*ten_million*:SceneSimulator.leaves_out_no_look*turning_star:SceneSimulator.leaves_out_no_look*overlap'
+echo "left to the release build: ${left_out//:/, }"
+echo "built without sanitizers: what fastddsgen and protoc write"
+GTEST_FILTER="-$left_out" ctest --test-dir build/asan -L unit --output-on-failure -j2
 
 step "tests, release"
 ctest --test-dir build/release --output-on-failure -j2
