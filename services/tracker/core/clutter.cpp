@@ -16,6 +16,8 @@ constexpr double fall_s = 1;
 constexpr std::int64_t bin_us = 4'000;
 constexpr double bins_remembered = 40;
 constexpr double more_than_noise = 1.4;
+constexpr double swamping_hz = 200;  // a pixel
+constexpr double swamped_share = 0.25;
 const double log_more_than_noise = std::log(more_than_noise);
 constexpr double surely = 12;  // a log likelihood
 
@@ -68,7 +70,7 @@ void Clutter::restart() {
     for (Part& part : parts_) part.forget();
     standing_density_ = {floor, floor};
     since_near_us_ = for_more_ = for_noise_ = 0;
-    is_noise_alone_ = is_quiet_ = false;
+    is_noise_alone_ = is_quiet_ = is_swamped_ = false;
     usual_near_hz_ = 0;
     bin_events_ = bin_mean_ = bin_variance_ = bins_ = 0;
     bin_end_us_ = 0;
@@ -76,7 +78,8 @@ void Clutter::restart() {
     remembered_ = 0;
     new_far_ = far_hz_ = {};
     near_count_ = near_time_us_ = slack_us_ = 0;
-    folded_us_ = fold_at_us_ = t_us_ = 0;
+    folded_us_ = fold_at_us_ = 0;
+    t_us_ = -1;
 }
 
 // By the normal that points away from the model's centre.
@@ -215,6 +218,10 @@ void Clutter::fold(std::int64_t t_us) {
         clutter_hz += beside_hz[side] * near_px;
     }
     clutter_hz_ = clutter_hz;
+    const double near_px2 = (whole_.near_width_px[0] + whole_.near_width_px[1]) * near_px;
+    const double of_px_hz = clutter_hz / std::max(near_px2, 1.0);
+    is_swamped_ = is_steady() && of_px_hz > (is_swamped_ ? 0.75 : 1) * swamping_hz &&
+                  whole_.own_share < swamped_share;
     const double own_hz = std::max({near_hz - clutter_hz, 0.1 * near_hz, 1e-3});
     for (std::size_t side = 0; side < 2; ++side) standing_density_[side] = beside_hz[side] / own_hz;
     new_far_ = {};

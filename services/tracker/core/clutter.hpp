@@ -28,6 +28,7 @@ class Clutter {
 
     /// Time goes on: to be called before the events of a time are counted.
     void reach(std::int64_t t_us) {
+        if (t_us_ < 0) t_us_ = folded_us_ = t_us;
         near_time_us_ += static_cast<double>(t_us - t_us_);
         since_near_us_ += static_cast<double>(t_us - t_us_);
         t_us_ = t_us;
@@ -65,6 +66,10 @@ class Clutter {
     /// Whether what comes is noise alone: on the contour no more than beside it, and beside it as
     /// steady as chance. (The edges of other things come and go.)
     [[nodiscard]] bool is_noise_alone() const { return is_noise_alone_ && is_steady(); }
+
+    /// Whether steady noise of 200 Hz a pixel and more leaves next to nothing of what is on the
+    /// contour to the object.
+    [[nodiscard]] bool is_swamped() const { return is_swamped_; }
 
  private:
     static constexpr double floor = 0.002;
@@ -118,6 +123,7 @@ class Clutter {
     double for_more_ = 0;  // log likelihoods that there is more than noise, and that there is not
     double for_noise_ = 0;
     bool is_noise_alone_ = false;
+    bool is_swamped_ = false;
     double usual_near_hz_ = 0;
     bool is_quiet_ = false;  // far fewer events than usual: most are not its own
     double clutter_hz_ = 0;
@@ -127,7 +133,7 @@ class Clutter {
     double near_count_ = 0;    // the last ten or so on the contour …
     double near_time_us_ = 0;  // … and the time they took
     double slack_us_ = 0;      // silence after which the density is told anew
-    std::int64_t t_us_ = 0;
+    std::int64_t t_us_ = -1;   // before the first event
     std::int64_t folded_us_ = 0;
     std::int64_t fold_at_us_ = 0;
     std::array<double, 2> standing_density_{floor, floor};

@@ -27,11 +27,12 @@ class Doubt {
         Eigen::Vector2d off_px = Eigen::Vector2d::Zero();  ///< Of the best from the pose.
     };
 
-    /// Events before `t_us` tell nothing. `before` is where the object was when it fell silent.
-    void begin(std::int64_t t_us, int confirmations, std::optional<Coast> before = std::nullopt) {
+    /// Events before `since_us` tell nothing. `before` is where the object was when it fell silent.
+    void begin(std::int64_t t_us, int confirmations, std::int64_t since_us,
+               std::optional<Coast> before = std::nullopt) {
         *this = Doubt();
         wanted_ = confirmations;
-        since_us_ = t_us;
+        since_us_ = since_us;
         due_us_ = t_us + first_us;
         before_ = before;
     }

@@ -61,6 +61,8 @@ class Estimator {
     /// It does not move any more, until events tell that it does.
     virtual void stand_still() {}
     [[nodiscard]] virtual bool sees_noise_alone() const { return false; }
+    /// Whether there is so much noise that nothing can be followed in it.
+    [[nodiscard]] virtual bool is_swamped() const { return false; }
 
     [[nodiscard]] virtual const Pose& pose() const = 0;
     [[nodiscard]] virtual Velocity velocity() const = 0;

@@ -40,7 +40,8 @@ class Health {
             window_ = std::clamp(recent_ / 3, window_events, most_events);
             sharpness_ += (is_sharp - sharpness_) / window_;
             if (sharpness_ > begin_of_fit) {
-                usual_sharpness_ += (sharpness_ - usual_sharpness_) / usual_events;
+                usual_count_ = std::min(usual_count_ + 1, usual_events);
+                usual_sharpness_ += (sharpness_ - usual_sharpness_) / usual_count_;
             }
             quiet_sharpness_ = nothing_fits;
             lively_t_us_ = t_us;
@@ -107,6 +108,7 @@ class Health {
 
     double sharpness_ = begin;
     double usual_sharpness_ = begin;
+    double usual_count_ = window_events;
     double quiet_sharpness_ = nothing_fits;
     double events_ = 0;
     double recent_ = 0;  // events of the last 50 ms, fading

@@ -301,7 +301,9 @@ bool KalmanEstimator<kind>::take(double weight) {
         (measured_.near_likelihood * far_noise + measured_.far_likelihood * near_noise);
     filter_.correct(measured_.row, r, measured_.row.h_p_h + noise, share);
     if (lead_prior_.count(measured_.lead, share)) {
-        filter_.tell_leads(lead_prior_.weights(), LeadPrior::held_px, LeadPrior::held_sigma_px);
+        filter_.tell_leads(lead_prior_.weights(), lead_prior_.held_px(), LeadPrior::held_sigma_px);
+        filter_.tell_leads(lead_prior_.apart_weights(), lead_prior_.apart_px(),
+                           LeadPrior::apart_sigma_px);
     }
     filter_.limit_leads(least_lead_px, most_lead_px);
     if constexpr (kind != TransformKind::isometry) measure_size();

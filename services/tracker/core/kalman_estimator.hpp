@@ -28,6 +28,7 @@ class KalmanEstimator : public Estimator {
     [[nodiscard]] double reach_px(std::int64_t t_us) const override;
     void stand_still() override { filter_.slow_down(0); }
     [[nodiscard]] bool sees_noise_alone() const override { return clutter_.is_noise_alone(); }
+    [[nodiscard]] bool is_swamped() const override { return clutter_.is_swamped(); }
     [[nodiscard]] const Pose& pose() const override { return filter_.pose(); }
     [[nodiscard]] Velocity velocity() const override {
         return M::velocity(filter_.twist(), filter_.pose().a);

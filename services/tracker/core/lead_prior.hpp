@@ -16,7 +16,10 @@ namespace pursuit::tracker {
 /// aslant, which fire a tenth of a pixel elsewhere for reasons of their own). So it is held: where
 /// an edge makes several events in a pixel, their mean, ON and OFF alike, is 0.14 ± 0.12 px behind
 /// it, whatever the contrast; where the refractory period lets only the first one through, the
-/// leads are the greater, the farther ON and OFF are apart.
+/// leads are the greater, the farther ON and OFF are apart: 0.8 of it and 0.10 px more, as discs
+/// show that turn at 670 to 3000 rpm. And how far ON is ahead of OFF they hardly tell from the size
+/// of an object that may change it: an edge in log intensity lies towards its dark side, by 0.43 px
+/// from the one to the other in the mean over contrasts, 0.50 where only first events come.
 class LeadPrior {
  public:
     static const Eigen::Vector4d& mean_px() {
@@ -35,8 +38,8 @@ class LeadPrior {
         return covariance;
     }
 
-    static constexpr double held_px = -0.14;  ///< weights() · leads
     static constexpr double held_sigma_px = 0.15;
+    static constexpr double apart_sigma_px = 0.12;
 
     void restart() { *this = LeadPrior(); }
 
@@ -49,15 +52,31 @@ class LeadPrior {
         return since_told_ == 0;
     }
 
+    /// What is held of what they have in common: weights() · leads = held_px().
     [[nodiscard]] Eigen::Vector4d weights() const {
         const auto [off, on] = subsequent_share_;
         const Eigen::Vector4d all(0.5 * (1 - off), 0.5 * off, 0.5 * (1 - on), 0.5 * on);
-        const Eigen::Vector4d first_only(1.5, 0, -0.5, 0);
-        const double several = std::min(off + on, 1.0);
-        return several * all + (1 - several) * first_only;
+        const Eigen::Vector4d first_only(1.3, 0, -0.3, 0);
+        return several() * all + (1 - several()) * first_only;
     }
+    /// How far ON is ahead of OFF, over all events: where the object may change its size, the
+    /// events hardly tell this from it.
+    [[nodiscard]] Eigen::Vector4d apart_weights() const {
+        const auto [off, on] = subsequent_share_;
+        return {off - 1, -off, 1 - on, on};
+    }
+    [[nodiscard]] double apart_px() const { return several() * 0.43 + (1 - several()) * 0.50; }
+
+    [[nodiscard]] double held_px() const { return several() * -0.14 + (1 - several()) * 0.10; }
 
  private:
+    /// 0 where an edge makes one event in a pixel … 1 where it makes two and more.
+    [[nodiscard]] double several() const {
+        const double share = (subsequent_share_[0] + subsequent_share_[1]) / 2;
+        const double x = std::clamp((share - 0.1) / 0.3, 0.0, 1.0);
+        return x * x * (3 - 2 * x);
+    }
+
     static constexpr double memory = 0.003;
     static constexpr int every_events = 100;
 

@@ -75,11 +75,14 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
     if (chosen->object_id() != last_object_id_) attempt_ = 0;
     SearchRange range = *chosen->wanted(t_us, geometry_);
     is_check_ = range.is_check;
-    const std::size_t count = wanted_events(*chosen);
+    constexpr std::array times{1.0, 3.0, 9.0};
+    constexpr std::array of_check{1.0, 0.3, 3.0};  // where the object is alone, and fast
+    const auto& turns = is_check_ ? of_check : times;
+    const std::size_t count = wanted_events(*chosen, turns[attempt_ % turns.size()]);
     ++attempt_;
     last_object_id_ = chosen->object_id();
     gather(t_us, range, chosen->radius_px(), count);
-    if (gathered_.size() < count / 8) return;
+    if (gathered_.size() < (is_check_ ? wanted_events(*chosen, 0.2) : count / 8)) return;
     going_ = range.going;
     checked_ = range.checked;
     if (is_check_ && !going_) {
@@ -89,21 +92,18 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
     }
     if (going_) lead_on(t_us, *going_);
     map_.build(geometry_, gathered_);
-    search_ = ShapeSearch(chosen->contour());
+    search_ = is_check_ ? ShapeSearch(chosen->contour(), chosen->outline())
+                        : ShapeSearch(chosen->contour());
     search_.begin(map_, range);
     object_id_ = chosen->object_id();
     worked_us_ = t_us;
     due_us_ = t_us;
 }
 
-std::size_t Seeker::wanted_events(const Track& track) const {
+std::size_t Seeker::wanted_events(const Track& track, double times) {
     const double scale = track.radius_px() / std::max(track.contour().radius_px(), 1e-9);
     const double once = events_per_px * track.contour().length_px() * scale;
-    constexpr std::array times{1.0, 3.0, 9.0};
-    constexpr std::array of_check{1.0, 0.3, 3.0};  // where the object is alone, and fast
-    const auto& chosen = is_check_ ? of_check : times;
-    return std::clamp(static_cast<std::size_t>(once * chosen[attempt_ % chosen.size()]),
-                      std::size_t{100}, ring_events);
+    return std::clamp(static_cast<std::size_t>(once * times), std::size_t{100}, ring_events);
 }
 
 void Seeker::end(std::int64_t t_us, Track& track) {
@@ -126,11 +126,9 @@ void Seeker::end_check(std::int64_t t_us, Track& track) {
         track.compare(search_.found(), checked_.pose, search_.score_of(checked_.pose));
     if (!track.take_finding(t_us, finding)) return;
     // Where it has gone meanwhile, if it goes so.
-    Coast found{checked_.t_us, search_.found()->pose, {}};
-    if (going_) {
-        found.velocity = going_->at(checked_.t_us, 1).velocity;
-        found = found.at(t_us, 1);
-    }
+    Coast found{checked_.t_us, search_.found()->pose, checked_.velocity};
+    if (going_) found.velocity = going_->at(checked_.t_us, 1).velocity;
+    if (going_ || !finding.is_sure) found = found.at(t_us, 1);
     if (finding.is_sure) {
         SearchRange again;
         again.around = found.pose;
@@ -138,8 +136,7 @@ void Seeker::end_check(std::int64_t t_us, Track& track) {
         if (going_) again.going = found;
         look_again(t_us, track, std::move(again));
         if (search_.found()) found.pose = search_.found()->pose;
-    } else if (!going_) {
-        found.pose.t_px += track.pose().t_px - checked_.pose.t_px;
+        if (!going_) found.velocity = {};
     }
     track.move_to(t_us, found.pose, found.velocity);
 }

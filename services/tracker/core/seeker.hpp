@@ -47,7 +47,7 @@ class Seeker {
     [[nodiscard]] double mean_age_us(std::int64_t t_us) const;
     /// The last `count` events that have a neighbour in space and time, in reach of the range.
     void gather(std::int64_t t_us, const SearchRange& range, double radius_px, std::size_t count);
-    [[nodiscard]] std::size_t wanted_events(const Track& track) const;
+    [[nodiscard]] static std::size_t wanted_events(const Track& track, double times);
 
     Geometry geometry_;
     std::vector<Event> ring_;

@@ -35,12 +35,18 @@ constexpr double beside = 4;      // px off the contour, where only chance has f
 
 }  // namespace
 
-ShapeSearch::ShapeSearch(const Contour& contour)
-    : pieces_(contour.pieces().pieces()),
-      length_px_(contour.length_px()),
-      radius_px_(contour.radius_px()),
-      coarse_(samples(coarse_points)),
-      fine_(samples(fine_points)) {
+ShapeSearch::ShapeSearch(const Contour& contour) : ShapeSearch(contour, Outline(contour)) {}
+
+ShapeSearch::ShapeSearch(const Contour& contour, const Outline& outline)
+    : radius_px_(contour.radius_px()) {
+    const std::vector<Piece>& pieces = contour.pieces().pieces();
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (outline.is_hidden(static_cast<std::int32_t>(i))) continue;
+        pieces_.push_back(pieces[i]);
+        length_px_ += std::hypot(pieces[i].bx - pieces[i].ax, pieces[i].by - pieces[i].ay);
+    }
+    coarse_ = samples(coarse_points);
+    fine_ = samples(fine_points);
     best_.reserve(kept + 1);
 }
 

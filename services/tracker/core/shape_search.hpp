@@ -9,6 +9,7 @@
 #include "services/tracker/core/coast.hpp"
 #include "services/tracker/core/contour.hpp"
 #include "services/tracker/core/fired_map.hpp"
+#include "services/tracker/core/outline.hpp"
 #include "services/tracker/core/pose.hpp"
 
 namespace pursuit::tracker {
@@ -40,6 +41,8 @@ class ShapeSearch {
  public:
     ShapeSearch() = default;
     explicit ShapeSearch(const Contour& contour);
+    /// Looks for what of the contour is not hidden.
+    ShapeSearch(const Contour& contour, const Outline& outline);
 
     /// The map must outlive the search and stay as it is until is_done().
     void begin(const FiredMap& map, const SearchRange& range);

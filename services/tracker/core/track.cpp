@@ -44,6 +44,7 @@ constexpr double silent_events = 30;
 constexpr std::int64_t silent_us = 3'000;
 constexpr double unseen_way_px = 5;  // and may have gone so far meanwhile
 constexpr double same_px = 2.5;
+constexpr double checked_share = 0.7;
 constexpr double least_told = 0.45;  // score
 constexpr int start_confirmations = 3;
 constexpr int found_confirmations = 2;
@@ -111,7 +112,7 @@ void Track::restart(const RegisteredObject& object) {
     is_acquiring_ = false;
     is_covered_ = is_adrift_ = false;
     emerged_us_ = -1;
-    acquired_us_ = never_us;
+    acquired_us_ = doubted_us_ = never_us;
     trial_until_us_ = -1;
     visible_share_ = 1;
     events_per_px2_ = 2;
@@ -122,7 +123,7 @@ void Track::restart(const RegisteredObject& object) {
     against_us_ = 0;
     heard_us_ = -1;
     is_silent_ = false;
-    doubt_.begin(0, start_confirmations);
+    doubt_.begin(0, start_confirmations, 0);
     health_.restart();
     cover_->restart();
     estimator_->restart(object.start.pose, object.start.velocity);
@@ -135,7 +136,7 @@ void Track::begin_stream() {
     slow_.restart();
     tallied_us_ = -1;
     trial_until_us_ = -1;
-    acquired_us_ = never_us;
+    acquired_us_ = doubted_us_ = never_us;
     emerged_us_ = -1;
     // How long the sensor was away is not known: the last good pose, at rest.
     const Pose last = is_covered_     ? covered_.pose
@@ -179,6 +180,7 @@ void Track::weigh(std::int64_t t_us) {
     const bool is_against = health_.is_settled() && !estimator_->sees_noise_alone() &&
                             health_.is_against(parameters_.let_go_sharpness, cover_->share());
     against_us_ = std::max<std::int64_t>(against_us_ + (is_against ? dt_us : -2 * dt_us), 0);
+    if (against_us_ > 0) doubted_us_ = t_us;
 }
 
 void Track::acquire(std::int64_t t_us) {
@@ -194,7 +196,7 @@ void Track::acquire(std::int64_t t_us) {
     for (Coast& good : good_) good = {t_us, acquisition_->pose(), acquisition_->velocity()};
     heard_us_ = t_us;
     is_silent_ = false;
-    doubt_.begin(t_us, found_confirmations);
+    doubt_.begin(t_us, found_confirmations, t_us);
 }
 
 Pose Track::coasted(std::int64_t t_us) const { return good_[1].at(t_us, tracker_.coast_s).pose; }
@@ -283,9 +285,15 @@ void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocit
     cover_->restart();
     acquired_us_ = t_us;
     against_us_ = 0;
-    estimator_->restart(moved, velocity);
+    if (doubt_.since_us() == emerged_at_us_) {
+        // It goes on as it did before it was hidden.
+        estimator_->resume(t_us, moved, covered_.velocity, 0);
+    } else {
+        estimator_->restart(moved, velocity);
+    }
     for (Coast& good : good_) good = {t_us, moved, velocity};
-    doubt_.begin(t_us, found_confirmations);
+    // What came before the move is of the same object.
+    doubt_.begin(t_us, found_confirmations, doubt_.since_us());
 }
 
 // Fewer events than it makes: none at all where many should have come.
@@ -300,7 +308,7 @@ void Track::hear(std::int64_t t_us) {
     if (silence_us < silent_us && seconds(silence_us) * speed_px_s() < same_px) return;
     is_silent_ = true;
     const Coast before{heard_us_, estimator_->pose(), estimator_->velocity()};
-    doubt_.begin(t_us, found_confirmations, before);
+    doubt_.begin(t_us, found_confirmations, t_us, before);
 }
 
 Pose Track::pose() const {
@@ -448,6 +456,11 @@ void Track::see(std::int64_t t_us) {
     }
     visible_share_ = whole > 0 ? seen / whole : 1;
     estimator_->set_visible_share(std::max(visible_share_, covered_share));
+    // Held by little of its contour it may have slid along what was seen of it.
+    if (emerges_ && emerged_us_ < 0 && visible_share_ > checked_share && can_be_hidden()) {
+        emerges_ = false;
+        doubt_.begin(t_us, start_confirmations, emerged_at_us_);
+    }
     if (!is_covered_ && can_be_hidden() && visible_share_ < covered_share) cover(t_us);
     if (is_covered_ && visible_share_ > uncovered_share) uncover(t_us);
     if (is_covered_ && seconds(t_us - grip_lost_us_) > longest_covered_s) give_up(t_us);
@@ -486,12 +499,15 @@ void Track::uncover(std::int64_t t_us) {
     const double way_px = seconds(t_us - grip_lost_us_) *
                           std::hypot(covered_.velocity.vx_px_s, covered_.velocity.vy_px_s);
     emerged_us_ = t_us;
+    emerges_ = true;
+    emerged_at_us_ = t_us;
     estimator_->resume(t_us, covered_.pose, covered_.velocity, way_px);
     for (Coast& good : good_) good = {t_us, covered_.pose, covered_.velocity};
 }
 
 TrackState Track::state_at(std::int64_t t_us) const {
     if (is_searching_) return TrackState::searching;
+    if (!is_acquiring_ && !is_covered_ && estimator_->is_swamped()) return TrackState::lost;
     if (is_covered_ || (emerged_us_ >= 0 && !is_acquiring_)) return TrackState::occluded;
     if (!is_acquiring_) return TrackState::tracking;
     // Hidden by what is not tracked, its events are missing; what does not fit is something else.
@@ -502,16 +518,17 @@ TrackState Track::state_at(std::int64_t t_us) const {
 
 double Track::confidence_at(std::int64_t t_us) const {
     if (is_searching_ || is_acquiring_ || is_covered_ || emerged_us_ >= 0) return 0;
+    if (estimator_->is_swamped()) return 0;
     const double sharp = std::clamp((health_.sharpness() - 0.25) / 0.4, 0.0, 1.0);
     const double usual = std::clamp((health_.relative_sharpness() - 0.6) / 0.25, 0.0, 1.0);
     const double covered = std::clamp((cover_->share() - 0.4) / 0.2, 0.0, 1.0);
     const double fit = std::min({sharp, usual, covered});
     const double silent_s = seconds(t_us - health_.lively_t_us()) - sure_s;
     const double believed = silent_s > 0 ? fit * std::exp(-silent_s / doubt_s) : fit;
-    // What was found again is believed when it has fitted for a while, and was confirmed; what is
+    // What was found again, or did not fit, is believed when it has fitted for a while; what is
     // silent may have gone on meanwhile.
     const bool is_doubted =
-        t_us - acquired_us_ < believed_after_us || against_us_ > 0 || doubt_.is_open();
+        t_us - std::max(acquired_us_, doubted_us_) < believed_after_us || doubt_.is_open();
     const double unseen_px = seconds(t_us - heard_us_) * speed_px_s();
     const bool may_be_gone = is_silent(t_us) && unseen_px > unseen_way_px;
     return is_doubted || may_be_gone ? std::min(believed, 0.5) : believed;

@@ -171,7 +171,10 @@ class Track {
     std::int64_t acquisition_began_us_ = 0;
     std::int64_t trial_until_us_ = -1;  // of an offered pose
     std::int64_t acquired_us_ = never_us;
-    std::int64_t emerged_us_ = -1;  // came out from under another; not yet confirmed by events
+    std::int64_t doubted_us_ = never_us;  // events spoke against the pose
+    std::int64_t emerged_us_ = -1;     // came out from under another; not yet confirmed by events
+    bool emerges_ = false;             // and was not checked since
+    std::int64_t emerged_at_us_ = -1;  // the last time
     double distance_px_ = 0;
     std::int64_t last_event_t_us_ = 0;
     std::int64_t heard_us_ = -1;  // the last event that was thought to be its own

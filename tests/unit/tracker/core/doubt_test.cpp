@@ -51,7 +51,7 @@ Doubt::Finding elsewhere(bool is_sure, double gain, double x_px = 9) {
 TEST(Doubt, is_settled_by_as_many_sure_findings_as_were_asked_for) {
     Doubt doubt;
     EXPECT_FALSE(doubt.is_open());
-    doubt.begin(100, 2);
+    doubt.begin(100, 2, 100);
     EXPECT_TRUE(doubt.is_open());
     EXPECT_FALSE(doubt.is_due(101));  // the events have to come first
     EXPECT_TRUE(doubt.is_due(100'000));
@@ -64,19 +64,19 @@ TEST(Doubt, is_settled_by_as_many_sure_findings_as_were_asked_for) {
 
 TEST(Doubt, moves_the_object_for_one_sure_finding_that_fits_better) {
     Doubt doubt;
-    doubt.begin(0, 3);
+    doubt.begin(0, 3, 0);
     EXPECT_FALSE(doubt.take(10'000, elsewhere(true, 0.05)));
     EXPECT_TRUE(doubt.take(20'000, elsewhere(true, 0.3)));
 }
 
 TEST(Doubt, moves_the_object_for_unsure_findings_that_agree_and_not_for_those_that_do_not) {
     Doubt agreed;
-    agreed.begin(0, 3);
+    agreed.begin(0, 3, 0);
     EXPECT_FALSE(agreed.take(10'000, elsewhere(false, 0.15)));
     EXPECT_TRUE(agreed.take(20'000, elsewhere(false, 0.15)));
 
     Doubt scattered;
-    scattered.begin(0, 3);
+    scattered.begin(0, 3, 0);
     for (int i = 0; i < 20; ++i) {
         EXPECT_FALSE(scattered.take(10'000 * i, elsewhere(false, 0.15, i % 2 == 0 ? 9 : -9)));
     }
@@ -84,7 +84,7 @@ TEST(Doubt, moves_the_object_for_unsure_findings_that_agree_and_not_for_those_th
 
 TEST(Doubt, ends_by_itself_when_no_search_is_sure) {
     Doubt doubt;
-    doubt.begin(0, 3);
+    doubt.begin(0, 3, 0);
     int searches = 0;
     while (doubt.is_open() && searches < 1000) {
         EXPECT_FALSE(doubt.take(10'000 * searches, elsewhere(false, 0)));

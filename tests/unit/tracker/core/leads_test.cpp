@@ -34,7 +34,7 @@ TEST(Backlash, turns_to_the_other_side_within_twice_its_half_width_of_the_way_ba
 
 TEST(LeadPrior, holds_the_first_leads_where_no_other_come_and_the_mean_of_all_where_they_do) {
     LeadPrior prior;
-    EXPECT_EQ(prior.weights(), Eigen::Vector4d(1.5, 0, -0.5, 0));
+    EXPECT_EQ(prior.weights(), Eigen::Vector4d(1.3, 0, -0.3, 0));
     // Two subsequent events for each first one, ON and OFF.
     for (int i = 0; i < 30'000; ++i) {
         prior.count(i % 3 == 0 ? 0 : 1, 1);
@@ -46,10 +46,24 @@ TEST(LeadPrior, holds_the_first_leads_where_no_other_come_and_the_mean_of_all_wh
     EXPECT_NEAR(all.sum(), 1, 1e-9);
 }
 
-TEST(LeadPrior, expects_before_any_event_what_it_holds_later) {
-    // To half of what it is known to.
-    const double expected_px = LeadPrior().weights().dot(LeadPrior::mean_px());
-    EXPECT_NEAR(expected_px, LeadPrior::held_px, 0.06);
+TEST(LeadPrior, expects_before_any_event_what_it_holds_later_as_far_as_that_is_known) {
+    const LeadPrior prior;
+    const double expected_px = prior.weights().dot(LeadPrior::mean_px());
+    EXPECT_NEAR(expected_px, prior.held_px(), LeadPrior::held_sigma_px);
+    const double apart_px = prior.apart_weights().dot(LeadPrior::mean_px());
+    EXPECT_NEAR(apart_px, prior.apart_px(), LeadPrior::apart_sigma_px);
+}
+
+TEST(LeadPrior, holds_on_and_off_apart_by_the_means_over_their_events) {
+    LeadPrior prior;
+    for (int i = 0; i < 30'000; ++i) {
+        prior.count(i % 4 == 0 ? 0 : 1, 1);
+        prior.count(i % 2 == 0 ? 2 : 3, 1);
+    }
+    const Eigen::Vector4d leads_px(0.1, -0.5, 0.7, 0.2);
+    const double off_px = 0.25 * 0.1 + 0.75 * -0.5;
+    const double on_px = 0.5 * 0.7 + 0.5 * 0.2;
+    EXPECT_NEAR(prior.apart_weights().dot(leads_px), on_px - off_px, 0.01);
 }
 
 /// Events a second on the contour and beside it, drawn at random, for some time.
@@ -89,6 +103,19 @@ TEST(Clutter, knows_noise_alone_and_when_there_is_more) {
     // What comes on one side alone is something else's edge.
     see(clutter, on_hz, 2 * beside_hz, 0, 0.6);
     EXPECT_FALSE(clutter.is_noise_alone());
+}
+
+TEST(Clutter, is_swamped_by_steady_noise_of_300_hz_a_pixel_and_not_by_100) {
+    Contour contour(test::polygon("box", {{-22, -22}, {22, -22}, {22, 22}, {-22, 22}}));
+    contour.fit(Eigen::Matrix2d::Identity(), 8);
+    for (const double of_px_hz : {100.0, 300.0}) {
+        Clutter clutter;
+        clutter.restart();
+        clutter.sample(contour, Eigen::Matrix2d::Identity());
+        // 176 px of contour: 4 px near it on each side; 3 px beside it are longer outside.
+        see(clutter, 2 * 4 * 176 * of_px_hz, 3 * 156 * of_px_hz, 3 * 196 * of_px_hz, 0.2);
+        EXPECT_EQ(clutter.is_swamped(), of_px_hz > 200) << of_px_hz;
+    }
 }
 
 }  // namespace
