@@ -56,7 +56,9 @@ void Acquisition::take() {
     if (distance_px_ < narrowest_gate_px) {
         health_.count(distance_px_, narrowest_gate_px, t_us_);
         if (distance_px_ < narrowest_gate_px / 4) {
-            cover_.count(piece_, outline_, estimator_.pose(), velocity());
+            if (cover_.count(piece_)) {
+                cover_.close_window(outline_, estimator_.pose(), velocity());
+            }
         }
     }
     residual_px_ += 0.01 * (distance_px_ - residual_px_);

@@ -20,6 +20,8 @@ class Acquisition {
     void begin(const Pose& pose, double gate_px);
 
     Approach approach(const Event& event);
+    /// Of that event under the object, 1/px.
+    [[nodiscard]] double likelihood() const { return estimator_.likelihood(); }
     /// Uses the event that approach() was asked for last.
     void take();
 

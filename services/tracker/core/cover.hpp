@@ -21,21 +21,20 @@ class Cover {
 
     void restart();
 
-    /// An event on this piece of the contour, under this pose and velocity. Nothing is expected of
-    /// what the outline says is hidden.
-    void count(std::int32_t piece, const Outline& outline, const Pose& pose,
-               const Velocity& velocity) {
+    /// An event on this piece of the contour; true where close_window() is to be called now.
+    [[nodiscard]] bool count(std::int32_t piece) {
         ++counted_[sector_[part_of_[static_cast<std::size_t>(piece)]]];
-        if (++events_ >= window_events) close_window(outline, pose, velocity);
+        return ++events_ >= window_events;
     }
+    /// Weighs what was counted, under this pose and velocity. Nothing is expected of what the
+    /// outline says is hidden.
+    void close_window(const Outline& outline, const Pose& pose, const Velocity& velocity);
 
     /// The share of the expected events whose parts of the contour got a quarter or more of theirs,
     /// 0 … 1; over the last few hundred events.
     [[nodiscard]] double share() const { return share_; }
 
  private:
-    void close_window(const Outline& outline, const Pose& pose, const Velocity& velocity);
-
     static constexpr std::size_t sectors = 20;
     static constexpr int window_events = 50;
     static constexpr int most_parts = 1024;

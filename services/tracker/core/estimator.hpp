@@ -14,8 +14,7 @@ namespace pursuit::tracker {
 /// How near an event is to an object.
 struct Approach {
     double distance_px = std::numeric_limits<double>::infinity();  ///< Infinite beyond the gate.
-    double likelihood = 0;  ///< Of the event under the object, 1/px.
-    double clutter = 0;     ///< Density of events that are no object's, 1/px.
+    double clutter = 0;  ///< Density of events that are no object's, 1/px.
 
     double contour_px = std::numeric_limits<double>::infinity();  ///< To the contour.
     std::int32_t piece = -1;                                      ///< Of the contour, the nearest.
@@ -50,6 +49,9 @@ class Estimator {
     /// The event's distance to the model in the image.
     /// since_same_us: since the last event of the same pixel and polarity.
     virtual Approach approach(const Event& event, std::int64_t since_same_us) = 0;
+
+    /// Of that event under the object, 1/px.
+    [[nodiscard]] virtual double likelihood() const = 0;
 
     /// Uses the event with a weight 0 … 1; false where it came to nothing.
     virtual bool take(double weight) = 0;

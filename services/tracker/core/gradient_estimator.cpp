@@ -15,6 +15,8 @@ GradientEstimator::GradientEstimator(TransformKind transform, const Contour& con
 
 void GradientEstimator::restart(const Pose& pose, const Velocity&) {
     pose_ = pose;
+    measure_extent();
+    is_laid_out_ = false;
     slope_.restart();
     turned_rad_ = 0;
     last_theta_rad_ = theta_rad(pose.a);
@@ -23,15 +25,23 @@ void GradientEstimator::restart(const Pose& pose, const Velocity&) {
 
 void GradientEstimator::set_parameters(const ObjectParameters& parameters) {
     parameters_ = parameters;
+    is_laid_out_ = false;
+}
+
+void GradientEstimator::measure_extent() { extent_px_ = contour_.radius_px() * pose_.a.norm(); }
+
+void GradientEstimator::lay_out() {
+    contour_.fit(pose_.a, parameters_.gate_px);
+    if (pull_ == Pull::point) contour_.fit_points(pose_.a, parameters_.gate_px);
+    is_laid_out_ = transform_ == TransformKind::isometry;
 }
 
 Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     q_ = Eigen::Vector2d(event.x, event.y) - pose_.t_px;
     const double within_px = reach_px(event.t_us);
     if (q_.squaredNorm() > within_px * within_px) return {};
+    if (!is_laid_out_) lay_out();
     const bool wants_points = pull_ == Pull::point;
-    contour_.fit(pose_.a, parameters_.gate_px);
-    if (wants_points) contour_.fit_points(pose_.a, parameters_.gate_px);
     const CandidateGrid& grid = wants_points ? contour_.points() : contour_.pieces();
     CandidateGrid::Nearest nearest;
     CandidateGrid::Nearest on_contour;
@@ -55,13 +65,15 @@ Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     const Segment& segment = grid.segment(nearest.piece);
     m_ << segment.ax + nearest.foot * segment.dx, segment.ay + nearest.foot * segment.dy;
     t_us_ = event.t_us;
-    // As of events scattered by a pixel, beside a little clutter.
-    return {distance_px_, 0.4 * std::exp(-0.5 * nearest.squared_px), 0.02,
-            std::sqrt(on_contour.squared_px), on_contour.piece};
+    // Beside a little clutter.
+    return {distance_px_, 0.02, std::sqrt(on_contour.squared_px), on_contour.piece};
 }
 
-double GradientEstimator::reach_px(std::int64_t) const {
-    return contour_.radius_px() * pose_.a.norm() + parameters_.gate_px;
+double GradientEstimator::reach_px(std::int64_t) const { return extent_px_ + parameters_.gate_px; }
+
+// As of events scattered by a pixel.
+double GradientEstimator::likelihood() const {
+    return 0.4 * std::exp(-0.5 * distance_px_ * distance_px_);
 }
 
 bool GradientEstimator::take(double weight) {
@@ -70,6 +82,7 @@ bool GradientEstimator::take(double weight) {
         parameters_.gradient_position_gain, parameters_.gradient_angle_gain_rad_px2,
         parameters_.gradient_scale_gain_1_px, parameters_.gradient_affine_gain_1_px2};
     descend(pose_, transform_, gains, q_, m_, weight);
+    if (transform_ != TransformKind::isometry) measure_extent();
     residual_px_ += 0.01 * weight * (distance_px_ - residual_px_);
     if (slope_.is_due(t_us_)) {
         const double theta = theta_rad(pose_.a);

@@ -21,6 +21,7 @@ class GradientEstimator : public Estimator {
     void restart(const Pose& pose, const Velocity& velocity) override;
     void set_parameters(const ObjectParameters& parameters) override;
     Approach approach(const Event& event, std::int64_t since_same_us) override;
+    [[nodiscard]] double likelihood() const override;
     bool take(double weight) override;
     [[nodiscard]] double reach_px(std::int64_t t_us) const override;
     [[nodiscard]] const Pose& pose() const override { return pose_; }
@@ -28,12 +29,17 @@ class GradientEstimator : public Estimator {
     void describe(std::int64_t t_us, PoseRecord& record) const override;
 
  private:
+    void lay_out();
+    void measure_extent();
+
     TransformKind transform_;
     Pull pull_;
     Contour contour_;
     ObjectParameters parameters_;
     Pose pose_;
-    Slope<5> slope_{0.02};  // of x, y, θ (unwrapped), log sx, log sy
+    double extent_px_ = 0;      // of the shape about the pose
+    bool is_laid_out_ = false;  // the contour, for every pose of an isometry
+    Slope<5> slope_{0.02};      // of x, y, θ (unwrapped), log sx, log sy
     double turned_rad_ = 0;
     double last_theta_rad_ = 0;
     double residual_px_ = 0.5;

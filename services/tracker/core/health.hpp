@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "services/tracker/core/fade.hpp"
+
 namespace pursuit::tracker {
 
 /// Whether the events near a track fit its pose. Events of the object lie on the contour; what else
@@ -24,7 +26,7 @@ class Health {
     void count(double distance_px, double gate_px, std::int64_t t_us, bool is_noise = false) {
         if (events_ > 0) {
             const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
-            recent_ *= std::exp(-dt_s / memory_s);
+            recent_ *= fade_.over(t_us - t_us_);
             // While it fits, the rate is the object's own.
             if (!is_quiet_ && sharpness_ > begin_of_fit) {
                 own_rate_ += (recent_ - own_rate_) * std::min(1.0, dt_s / own_memory_s);
@@ -105,6 +107,7 @@ class Health {
     static constexpr double doubtful_cover = 0.75;
     static constexpr double memory_s = 0.05;
     static constexpr double own_memory_s = 0.5;
+    static const inline Fade fade_{memory_s};
 
     double sharpness_ = begin;
     double usual_sharpness_ = begin;

@@ -280,8 +280,7 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     measured_.far_likelihood =
         tail_share * normal_density(r_px * r_px, 1 / (near_variance + tail_px2));
     measured_.clutter = clutter_.density(place.piece, r_px);
-    return {distance_px, measured_.near_likelihood + measured_.far_likelihood, measured_.clutter,
-            distance_px, place.piece};
+    return {distance_px, measured_.clutter, distance_px, place.piece};
 }
 
 template <TransformKind kind>

@@ -24,6 +24,9 @@ class KalmanEstimator : public Estimator {
                 double way_px) override;
     void set_visible_share(double share) override { visible_share_ = share; }
     Approach approach(const Event& event, std::int64_t since_same_us) override;
+    [[nodiscard]] double likelihood() const override {
+        return measured_.near_likelihood + measured_.far_likelihood;
+    }
     bool take(double weight) override;
     [[nodiscard]] double reach_px(std::int64_t t_us) const override;
     void stand_still() override { filter_.slow_down(0); }

@@ -130,8 +130,8 @@ bool Occlusion::is_behind(const Track& one, const Track& other) {
     return evidence.is_behind;
 }
 
-bool Occlusion::hides(std::size_t index, const Event& event, std::span<const Track> tracks) const {
-    if (index >= hidden_by_.size()) return false;
+bool Occlusion::is_hidden(std::size_t index, const Event& event,
+                          std::span<const Track> tracks) const {
     return std::any_of(hidden_by_[index].begin(), hidden_by_[index].end(), [&](std::size_t k) {
         return image_depth_px(tracks[k], Eigen::Vector2d(event.x, event.y)) > -band_px;
     });

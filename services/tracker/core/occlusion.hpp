@@ -30,7 +30,10 @@ class Occlusion {
     /// Whether an event at this place cannot be the object's, because another lies over it.
     /// `index` and `tracks` as of the last look().
     [[nodiscard]] bool hides(std::size_t index, const Event& event,
-                             std::span<const Track> tracks) const;
+                             std::span<const Track> tracks) const {
+        return index < hidden_by_.size() && !hidden_by_[index].empty() &&
+               is_hidden(index, event, tracks);
+    }
 
  private:
     /// Of one object's contour inside another.
@@ -48,6 +51,8 @@ class Occlusion {
     };
 
     void gather(const Track& one, const Track& other);
+    [[nodiscard]] bool is_hidden(std::size_t index, const Event& event,
+                                 std::span<const Track> tracks) const;
     bool is_behind(const Track& one, const Track& other);
 
     std::int64_t next_us_ = 0;

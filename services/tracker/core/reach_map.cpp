@@ -15,17 +15,13 @@ void ReachMap::restart(Geometry geometry, std::size_t objects) {
     placed_.assign(objects, Reach{});
 }
 
-void ReachMap::place(std::size_t index, const Reach& reach) {
+void ReachMap::enter(std::size_t index, const Reach& reach) {
     Reach& placed = placed_[index];
     if (!(reach.radius_px >= 0) || !reach.center_px.allFinite()) {
         if (placed.radius_px >= 0) mark(index, placed, false);
         placed = {};
         return;
     }
-    const double slack_px = placed.radius_px - reach.radius_px;
-    const bool is_inside =
-        slack_px >= 0 && (reach.center_px - placed.center_px).squaredNorm() <= slack_px * slack_px;
-    if (is_inside && slack_px < 4 * margin_px) return;
     if (placed.radius_px >= 0) mark(index, placed, false);
     placed = {reach.center_px, reach.radius_px + margin_px};
     mark(index, placed, true);

@@ -30,7 +30,14 @@ class ReachMap {
     void restart(Geometry geometry, std::size_t objects);
 
     /// Where the object of this index reaches from now on.
-    void place(std::size_t index, const Reach& reach);
+    void place(std::size_t index, const Reach& reach) {
+        const Reach& placed = placed_[index];
+        const double slack_px = placed.radius_px - reach.radius_px;
+        const bool is_there =
+            reach.radius_px >= 0 && slack_px >= 0 && slack_px < 4 * margin_px &&
+            (reach.center_px - placed.center_px).squaredNorm() <= slack_px * slack_px;
+        if (!is_there) enter(index, reach);
+    }
 
     /// Calls ask(index), in order, for every object that the place may concern.
     template <typename Ask>
@@ -46,6 +53,7 @@ class ReachMap {
  private:
     using Cell = std::array<std::uint64_t, most_objects / 64>;
 
+    void enter(std::size_t index, const Reach& reach);
     void mark(std::size_t index, const Reach& reach, bool is_there);
 
     static constexpr int cell_bits = 4;

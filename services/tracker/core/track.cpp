@@ -368,7 +368,9 @@ bool Track::take(const Event& event, double weight) {
         }
         if (!estimator_->take(weight)) return false;
         if (piece_ >= 0 && distance_px_ < parameters_.gate_px / 4) {
-            cover_->count(piece_, outline_, estimator_->pose(), estimator_->velocity());
+            if (cover_->count(piece_)) {
+                cover_->close_window(outline_, estimator_->pose(), estimator_->velocity());
+            }
             outline_.count(piece_, weight);
         }
         if (health_.is_fair() && against_us_ == 0 && !doubt_.is_open()) remember_good(event.t_us);

@@ -60,6 +60,10 @@ class Track {
 
     /// How near an event is. take() uses the event that approach() was asked for last.
     Approach approach(const Event& event, std::int64_t since_same_us);
+    /// Of that event under the object, 1/px.
+    [[nodiscard]] double likelihood() const {
+        return is_acquiring_ ? acquisition_->likelihood() : estimator_->likelihood();
+    }
     bool take(const Event& event, double weight);
 
     /// An event that would have been the object's, were it not hidden there.

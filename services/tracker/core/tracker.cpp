@@ -125,7 +125,7 @@ class Tracker::Impl {
                 track.deny();
                 return;
             }
-            claims.push_back({track.object_id(), near.distance_px, near.likelihood, near.clutter});
+            claims.push_back({track.object_id(), near.distance_px, 0, near.clutter});
             claimants.push_back(i);
         });
 
@@ -165,6 +165,11 @@ class Tracker::Impl {
     // strategy's to give, any other the closest object's.
     void give(const Event& event) {
         if (claims.empty()) return;
+        if (claims.size() > 1) {
+            for (std::size_t i = 0; i < claims.size(); ++i) {
+                claims[i].likelihood = tracks[claimants[i]].likelihood();
+            }
+        }
         strategy->near(event, claims);
         if (claims.size() < 2) {
             claims[0].weight = 1;

@@ -152,7 +152,8 @@ void expect_cover_to_tell_all_from_a_part(const Contour& contour) {
     const Velocity right{100, 0, 0, 0, 0};
     const auto& pieces = contour.pieces().pieces();
     const auto make_event = [&](std::size_t piece) {
-        cover.count(static_cast<std::int32_t>(piece), outline, {}, right);
+        if (!cover.count(static_cast<std::int32_t>(piece))) return;
+        cover.close_window(outline, {}, right);
     };
     // Each piece makes events by how far it moves across itself.
     const double rounds = 6000 / contour.length_px();
