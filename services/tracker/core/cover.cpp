@@ -18,32 +18,52 @@ constexpr double sideways_share = 0.1;
 
 Cover::Cover(const Contour& contour) {
     const std::vector<Piece>& pieces = contour.pieces().pieces();
-    const std::size_t of_one = (pieces.size() + most_parts - 1) / most_parts;
-    const auto parts = static_cast<Eigen::Index>((pieces.size() + of_one - 1) / of_one);
+    // Pieces that run on from each other are one part as long as it stays short; any that follow
+    // each other only where there would be too many parts.
+    const double longest_px = contour.length_px() / usual_parts;
+    std::vector<double> length_px;
+    std::vector<std::size_t> first;
+    const auto group = [&](const auto& goes_on) {
+        length_px.clear();
+        first.clear();
+        part_of_.clear();
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            const Piece& piece = pieces[i];
+            const double more_px = std::hypot(piece.bx - piece.ax, piece.by - piece.ay);
+            if (i > 0 && goes_on(i, length_px.back() + more_px)) {
+                length_px.back() += more_px;
+            } else {
+                length_px.push_back(more_px);
+                first.push_back(i);
+            }
+            part_of_.push_back(static_cast<std::uint16_t>(first.size() - 1));
+        }
+    };
+    group([&](std::size_t i, double together_px) {
+        return together_px < longest_px && pieces[i].ax == pieces[i - 1].bx &&
+               pieces[i].ay == pieces[i - 1].by;
+    });
+    if (first.size() > most_parts) {
+        const std::size_t of_one = (pieces.size() + most_parts - 1) / most_parts;
+        group([&](std::size_t i, double) { return i % of_one != 0; });
+    }
+
+    const auto parts = static_cast<Eigen::Index>(first.size());
     for (Numbers* numbers : {&middle_px_.x, &middle_px_.y, &along_px_.x, &along_px_.y}) {
         numbers->resize(parts);
     }
-    std::vector<double> length_px(static_cast<std::size_t>(parts));
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
+    for (Eigen::Index part = 0; part < parts; ++part) {
+        const std::size_t i = first[static_cast<std::size_t>(part)];
         const Piece& piece = pieces[i];
+        piece_.push_back(static_cast<std::int32_t>(i));
+        middle_px_.x(part) = (piece.ax + piece.bx) / 2;
+        middle_px_.y(part) = (piece.ay + piece.by) / 2;
+        // As long as they all are, the first one's way.
         const Eigen::Vector2d along(piece.bx - piece.ax, piece.by - piece.ay);
-        const auto part = static_cast<Eigen::Index>(i / of_one);
-        part_of_.push_back(static_cast<std::uint16_t>(part));
-        if (i % of_one == 0) {
-            piece_.push_back(static_cast<std::int32_t>(i));
-            middle_px_.x(part) = (piece.ax + piece.bx) / 2;
-            middle_px_.y(part) = (piece.ay + piece.by) / 2;
-            along_px_.x(part) = along.x();
-            along_px_.y(part) = along.y();
-            length_px[static_cast<std::size_t>(part)] = along.norm();
-        } else if (length_px[static_cast<std::size_t>(part)] > 0) {
-            // As long as they all are, the first one's way.
-            double& length = length_px[static_cast<std::size_t>(part)];
-            const double longer = 1 + along.norm() / length;
-            length *= longer;
-            along_px_.x(part) *= longer;
-            along_px_.y(part) *= longer;
-        }
+        const double own_px = along.norm();
+        const double longer = own_px > 0 ? length_px[static_cast<std::size_t>(part)] / own_px : 1;
+        along_px_.x(part) = along.x() * longer;
+        along_px_.y(part) = along.y() * longer;
     }
     // Sectors of equal length, in order of the angle about the centre.
     std::vector<Eigen::Index> order(static_cast<std::size_t>(parts));

@@ -37,6 +37,7 @@ class Cover {
  private:
     static constexpr std::size_t sectors = 20;
     static constexpr int window_events = 50;
+    static constexpr int usual_parts = 128;
     static constexpr int most_parts = 1024;
 
     using Numbers = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_parts, 1>;
@@ -44,7 +45,6 @@ class Cover {
         Numbers x, y;
     };
 
-    // Up to 1024 pieces are a part each; of more, several that follow each other are one.
     std::vector<std::uint16_t> part_of_;  // by piece
     std::vector<std::size_t> sector_;     // by part
     std::vector<std::int32_t> piece_;     // its first

@@ -7,6 +7,8 @@ namespace pursuit::tracker {
 namespace {
 
 constexpr std::size_t most_map_cells = 100'000;
+constexpr int along_step = 3;
+constexpr int aslant_step = 4;
 
 }  // namespace
 
@@ -21,48 +23,69 @@ void FiredMap::build(Geometry geometry, std::span<const Event> events) {
     cell_px_ = cell_px;
     columns_ = cells(geometry.width, cell_px);
     rows_ = cells(geometry.height, cell_px);
-    distance_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
+    int right = 0;
+    int bottom = 0;
+    left_ = columns_;
+    top_ = rows_;
+    for (const Event& event : events) {
+        left_ = std::min(left_, event.x / cell_px);
+        right = std::max(right, event.x / cell_px + 1);
+        top_ = std::min(top_, event.y / cell_px);
+        bottom = std::max(bottom, event.y / cell_px + 1);
+    }
+    constexpr int around = farthest / along_step;
+    left_ = std::max(left_ - around, 0);
+    top_ = std::max(top_ - around, 0);
+    width_ = std::max(std::min(right + around, columns_) - left_, 0);
+    height_ = std::max(std::min(bottom + around, rows_) - top_, 0);
+    distance_.assign(static_cast<std::size_t>(width_ + 2) * static_cast<std::size_t>(height_ + 2),
                      std::uint8_t{farthest});
-    for (const Event& event : events) distance_[at(event.x / cell_px, event.y / cell_px)] = 0;
+    for (const Event& event : events) {
+        distance_[at(event.x / cell_px - left_, event.y / cell_px - top_)] = 0;
+    }
+    spread();
+    add_up();
+}
 
-    // Chamfer distance: 3 a step along an axis, 4 a step along a diagonal.
-    const auto reach = [&](int column, int row, int from_column, int from_row, int step) {
-        if (from_column < 0 || from_row < 0 || from_column >= columns_ || from_row >= rows_) return;
-        std::uint8_t& here = distance_[at(column, row)];
-        here = static_cast<std::uint8_t>(
-            std::min<int>(here, distance_[at(from_column, from_row)] + step));
+// Chamfer distance: 3 a step along an axis, 4 a step along a diagonal.
+void FiredMap::spread() {
+    const auto from_row = [&](std::uint8_t* here, const std::uint8_t* other) {
+        for (int x = 0; x < width_; ++x) {
+            const int aslant = std::min(other[x - 1], other[x + 1]) + aslant_step;
+            const int along = other[x] + along_step;
+            here[x] = static_cast<std::uint8_t>(std::min({int{here[x]}, aslant, along}));
+        }
     };
-    for (int row = 0; row < rows_; ++row) {
-        for (int column = 0; column < columns_; ++column) {
-            reach(column, row, column - 1, row, 3);
-            reach(column, row, column - 1, row - 1, 4);
-            reach(column, row, column, row - 1, 3);
-            reach(column, row, column + 1, row - 1, 4);
-        }
+    const auto from_cell = [](std::uint8_t* here, std::uint8_t other) {
+        *here = static_cast<std::uint8_t>(std::min(int{*here}, other + along_step));
+    };
+    for (int y = 0; y < height_; ++y) {
+        std::uint8_t* here = &distance_[at(0, y)];
+        from_row(here, &distance_[at(0, y - 1)]);
+        for (int x = 0; x < width_; ++x) from_cell(here + x, here[x - 1]);
     }
-    for (int row = rows_ - 1; row >= 0; --row) {
-        for (int column = columns_ - 1; column >= 0; --column) {
-            reach(column, row, column + 1, row, 3);
-            reach(column, row, column + 1, row + 1, 4);
-            reach(column, row, column, row + 1, 3);
-            reach(column, row, column - 1, row + 1, 4);
-        }
+    for (int y = height_ - 1; y >= 0; --y) {
+        std::uint8_t* here = &distance_[at(0, y)];
+        from_row(here, &distance_[at(0, y + 1)]);
+        for (int x = width_ - 1; x >= 0; --x) from_cell(here + x, here[x + 1]);
     }
+}
 
-    const auto wide = static_cast<std::size_t>(columns_) + 1;
-    sums_.assign(wide * (static_cast<std::size_t>(rows_) + 1), {});
-    for (int row = 0; row < rows_; ++row) {
+void FiredMap::add_up() {
+    const auto wide = static_cast<std::size_t>(width_) + 1;
+    sums_.assign(wide * (static_cast<std::size_t>(height_) + 1), {});
+    for (int y = 0; y < height_; ++y) {
         Sums of_row;
-        for (int column = 0; column < columns_; ++column) {
-            const std::uint32_t d = distance_[at(column, row)];
+        const std::uint8_t* distance = &distance_[at(0, y)];
+        const Sums* above = &sums_[static_cast<std::size_t>(y) * wide + 1];
+        Sums* here = &sums_[(static_cast<std::size_t>(y) + 1) * wide + 1];
+        for (int x = 0; x < width_; ++x) {
+            const std::uint32_t d = distance[x];
             of_row.fired += d == 0 ? 1 : 0;
             of_row.distance += d;
             of_row.squared += d * d;
-            const std::size_t i =
-                (static_cast<std::size_t>(row) + 1) * wide + static_cast<std::size_t>(column) + 1;
-            const Sums& above = sums_[i - wide];
-            sums_[i] = {above.fired + of_row.fired, above.distance + of_row.distance,
-                        above.squared + of_row.squared};
+            here[x] = {above[x].fired + of_row.fired, above[x].distance + of_row.distance,
+                       above[x].squared + of_row.squared};
         }
     }
 }
@@ -72,20 +95,28 @@ FiredMap::Around FiredMap::around(int column, int row, int half_side) const {
     const int right = std::clamp(column + half_side + 1, 0, columns_);
     const int top = std::clamp(row - half_side, 0, rows_);
     const int bottom = std::clamp(row + half_side + 1, 0, rows_);
-    const auto wide = static_cast<std::size_t>(columns_) + 1;
+    // What of it lies in the window, and how many cells do not.
+    const auto x_of = [&](int at) { return std::clamp(at - left_, 0, width_); };
+    const auto y_of = [&](int at) { return std::clamp(at - top_, 0, height_); };
+    const int cells = (right - left) * (bottom - top);
+    const auto beyond =
+        static_cast<std::uint32_t>(cells - (x_of(right) - x_of(left)) * (y_of(bottom) - y_of(top)));
+    const auto wide = static_cast<std::size_t>(width_) + 1;
     const auto sums = [&](int x, int y) -> const Sums& {
-        return sums_[static_cast<std::size_t>(y) * wide + static_cast<std::size_t>(x)];
+        return sums_[static_cast<std::size_t>(y_of(y)) * wide + static_cast<std::size_t>(x_of(x))];
     };
     // Differences of sums that wrap are right as long as the square's own sum is below 2^32.
-    const auto over = [&](std::uint32_t Sums::*member) {
+    const auto over = [&](std::uint32_t Sums::*member, std::uint32_t of_farthest) {
         return static_cast<double>(sums(right, bottom).*member - sums(left, bottom).*member -
-                                   sums(right, top).*member + sums(left, top).*member);
+                                   sums(right, top).*member + sums(left, top).*member +
+                                   beyond * of_farthest);
     };
     Around around;
-    const double count = std::max((right - left) * (bottom - top), 1);
-    around.fired = over(&Sums::fired);
-    around.mean = over(&Sums::distance) / count;
-    around.variance = std::max(over(&Sums::squared) / count - around.mean * around.mean, 0.0);
+    const double count = std::max(cells, 1);
+    around.fired = over(&Sums::fired, 0);
+    around.mean = over(&Sums::distance, farthest) / count;
+    around.variance = std::max(
+        over(&Sums::squared, farthest * farthest) / count - around.mean * around.mean, 0.0);
     return around;
 }
 

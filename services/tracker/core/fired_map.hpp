@@ -24,8 +24,10 @@ class FiredMap {
 
     /// Thirds of a cell to the next cell that fired; the farthest outside the image.
     [[nodiscard]] int distance(int column, int row) const {
-        if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return farthest;
-        return distance_[at(column, row)];
+        const int x = column - left_;
+        const int y = row - top_;
+        if (x < 0 || y < 0 || x >= width_ || y >= height_) return farthest;
+        return distance_[at(x, y)];
     }
 
     /// Over the square of cells around this one, cut at the image's border.
@@ -37,16 +39,25 @@ class FiredMap {
     [[nodiscard]] Around around(int column, int row, int half_side) const;
 
  private:
-    [[nodiscard]] std::size_t at(int column, int row) const {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-               static_cast<std::size_t>(column);
+    void spread();
+    void add_up();
+
+    // Of the window; a rim of one cell is around it.
+    [[nodiscard]] std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width_ + 2) +
+               static_cast<std::size_t>(x + 1);
     }
 
     double cell_px_ = 1;
     int columns_ = 0;
     int rows_ = 0;
+    // What fired and what is near it: beyond this window all is farthest.
+    int left_ = 0;
+    int top_ = 0;
+    int width_ = 0;
+    int height_ = 0;
     std::vector<std::uint8_t> distance_;
-    // Sums over everything above and to the left, a row and a column more than the image.
+    // Sums over everything in the window above and to the left, a row and a column more than it.
     struct Sums {
         std::uint32_t fired = 0;
         std::uint32_t distance = 0;

@@ -11,6 +11,7 @@ namespace {
 constexpr std::int64_t longest_us = 40'000;
 constexpr std::int64_t longest_of_check_us = 150'000;
 constexpr std::int64_t neighbour_us = 5'000;
+constexpr std::int64_t never_us = std::int64_t{-1} << 40;
 
 // How often it is asked who wants to be looked for.
 constexpr std::int64_t idle_us = 2'000;
@@ -34,7 +35,7 @@ void Seeker::restart(Geometry geometry) {
     geometry_ = geometry;
     ring_.assign(ring_events, {});
     next_ = 0;
-    fired_us_.assign(std::size_t{geometry.width} * geometry.height, 0);
+    fired_us_.assign(std::size_t{geometry.width} * geometry.height, never_us);
     object_id_ = last_object_id_ = 0;
     attempt_ = 0;
     due_us_ = 0;
@@ -161,26 +162,38 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
         return std::abs(event.x - range.around.t_px.x()) < reach_px &&
                std::abs(event.y - range.around.t_px.y()) < reach_px;
     };
-    const std::size_t kept = std::min(next_, ring_.size());
+    // What lies a pixel farther out, and more, supports nothing that is in reach.
+    const auto low = [&](double px) { return static_cast<int>(std::floor(px - reach_px)) - 2; };
+    const int left = low(range.around.t_px.x());
+    const int top = low(range.around.t_px.y());
+    const auto side = static_cast<unsigned>(2 * reach_px) + 6;
+    const auto may_support = [&](const Event& event) {
+        return static_cast<unsigned>(event.x - left) < side &&
+               static_cast<unsigned>(event.y - top) < side;
+    };
     const int width = geometry_.width;
     const int height = geometry_.height;
-    std::fill(fired_us_.begin(), fired_us_.end(), std::int64_t{-1} << 40);
-    std::size_t first = next_;
-    for (std::size_t i = 0; i < kept; ++i) {
-        const Event& event = ring_[(next_ - 1 - i) % ring_events];
-        if (t_us - event.t_us > (range.is_check ? longest_of_check_us : longest_us) ||
-            event.t_us < range.since_us) {
-            break;
+    const std::int64_t since_us =
+        std::max(t_us - (range.is_check ? longest_of_check_us : longest_us), range.since_us);
+    // They are in order of time.
+    std::size_t first = next_ - std::min(next_, ring_.size());
+    for (std::size_t end = next_; first < end;) {
+        const std::size_t middle = first + (end - first) / 2;
+        if (ring_[middle % ring_events].t_us < since_us) {
+            first = middle + 1;
+        } else {
+            end = middle;
         }
-        first = next_ - 1 - i;
     }
     const auto at = [&](int x, int y) -> std::int64_t& {
         return fired_us_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                          static_cast<std::size_t>(x)];
     };
+    looked_at_.clear();
     // Forwards, as they came: supported by a neighbour that fired shortly before.
     for (std::size_t i = first; i < next_; ++i) {
         const Event& event = ring_[i % ring_events];
+        if (!may_support(event)) continue;
         bool is_supported = false;
         for (int y = std::max(event.y - 1, 0); y <= std::min(event.y + 1, height - 1); ++y) {
             for (int x = std::max(event.x - 1, 0); x <= std::min(event.x + 1, width - 1); ++x) {
@@ -189,9 +202,11 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
             }
         }
         at(event.x, event.y) = event.t_us;
+        looked_at_.push_back(static_cast<std::size_t>(&at(event.x, event.y) - fired_us_.data()));
         if (!is_supported || !is_in_reach(event)) continue;
         gathered_.push_back(event);
     }
+    for (const std::size_t pixel : looked_at_) fired_us_[pixel] = never_us;
     if (gathered_.size() > count) {
         gathered_.erase(gathered_.begin(), gathered_.end() - static_cast<std::ptrdiff_t>(count));
     }

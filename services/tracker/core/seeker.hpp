@@ -53,7 +53,8 @@ class Seeker {
     std::vector<Event> ring_;
     std::size_t next_ = 0;
     std::vector<Event> gathered_;
-    std::vector<std::int64_t> fired_us_;  // by pixel, while gathering
+    std::vector<std::int64_t> fired_us_;  // by pixel, while gathering; never in between
+    std::vector<std::size_t> looked_at_;  // the pixels
     FiredMap map_;
     ShapeSearch search_;
     bool is_check_ = false;

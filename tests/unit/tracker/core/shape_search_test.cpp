@@ -77,6 +77,37 @@ TEST(FiredMap, has_the_chamfer_distance_to_the_nearest_pixel_that_fired) {
     EXPECT_EQ(map.around(152, 120, 1000).fired, 60);
 }
 
+TEST(FiredMap, tells_what_is_around_a_cell_where_nothing_fired_as_well) {
+    std::vector<Event> events;
+    for (std::uint16_t i = 0; i < 30; ++i) {
+        events.push_back(
+            {i, static_cast<std::uint16_t>(100 + i), static_cast<std::uint16_t>(2 * i), 1});
+    }
+    FiredMap map;
+    map.build(small_sensor, events);
+    for (int y = 0; y < 240; y += 19) {
+        for (int x = 0; x < 304; x += 17) {
+            double count = 0;
+            double fired = 0;
+            double sum = 0;
+            double squared = 0;
+            for (int row = std::max(y - 9, 0); row <= std::min(y + 9, 239); ++row) {
+                for (int column = std::max(x - 9, 0); column <= std::min(x + 9, 303); ++column) {
+                    const double d = map.distance(column, row);
+                    ++count;
+                    fired += d > 0 ? 0 : 1;
+                    sum += d;
+                    squared += d * d;
+                }
+            }
+            const FiredMap::Around around = map.around(x, y, 9);
+            ASSERT_EQ(around.fired, fired) << x << " " << y;
+            ASSERT_DOUBLE_EQ(around.mean, sum / count) << x << " " << y;
+            ASSERT_NEAR(around.variance, squared / count - sum / count * (sum / count), 1e-9);
+        }
+    }
+}
+
 TEST(FiredMap, of_a_large_image_has_cells_of_several_pixels) {
     FiredMap map;
     map.build({1280, 720}, std::vector<Event>{{0, 1279, 719, 1}});
