@@ -42,7 +42,7 @@ Place foot(const Piece& piece, const Place& place) {
 ///    still.
 struct CandidateGrid::Divider {
     CandidateGrid& grid;
-    std::vector<std::uint16_t> last_list;
+    std::vector<std::uint16_t> last_list = {};
     std::uint32_t last_at = 0;
 
     using List = std::vector<std::uint16_t>;
@@ -55,8 +55,16 @@ struct CandidateGrid::Divider {
     };
     using Square = std::array<Place, places>;
 
-    void divide(int column, int row, int size, const List& candidates) {
+    // Kept between calls: laying out a large contour makes ten thousands of them.
+    std::vector<View> views = {};
+    std::vector<List> kept_by_depth = std::vector<List>(32);
+
+    void divide(int column, int row, int size, const List& candidates, std::size_t depth = 0) {
         if (column >= grid.columns_ || row >= grid.rows_) return;
+        if (candidates.size() == 1) {
+            fill(column, row, size, candidates);
+            return;
+        }
         const double half_px = size / grid.cells_per_px_ / 2 * (1 + hair) + hair;
         const Place centre{grid.left_px_ + (column + size / 2.0) / grid.cells_per_px_,
                            grid.top_px_ + (row + size / 2.0) / grid.cells_per_px_};
@@ -64,7 +72,7 @@ struct CandidateGrid::Divider {
                             Place{centre.x + half_px, centre.y - half_px},
                             Place{centre.x - half_px, centre.y + half_px},
                             Place{centre.x + half_px, centre.y + half_px}};
-        std::vector<View> views(candidates.size());
+        views.resize(candidates.size());
         std::array<std::size_t, places> nearest{};
         for (std::size_t i = 0; i < candidates.size(); ++i) {
             views[i] = view(grid.pieces_[candidates[i]], square);
@@ -74,7 +82,8 @@ struct CandidateGrid::Divider {
         }
         const double beyond_px = grid.reach_px_ + half_px * std::sqrt(2.0);
         if (views[nearest[0]].squared_px[0] > beyond_px * beyond_px) return;
-        List kept;
+        List& kept = kept_by_depth[depth];
+        kept.clear();
         for (std::size_t i = 0; i < candidates.size(); ++i) {
             bool is_beaten = false;
             for (std::size_t k = 0; k < places && !is_beaten; ++k) {
@@ -88,10 +97,10 @@ struct CandidateGrid::Divider {
             return;
         }
         const int half = size / 2;
-        divide(column, row, half, kept);
-        divide(column + half, row, half, kept);
-        divide(column, row + half, half, kept);
-        divide(column + half, row + half, half, kept);
+        divide(column, row, half, kept, depth + 1);
+        divide(column + half, row, half, kept, depth + 1);
+        divide(column, row + half, half, kept, depth + 1);
+        divide(column + half, row + half, half, kept, depth + 1);
     }
 
     static View view(const Piece& piece, const Square& square) {
@@ -113,7 +122,7 @@ struct CandidateGrid::Divider {
             const double own2 = view.squared_px[k];
             by_factor &= own2 > ratio2 * by2[k] + hair * (own2 + 1);
         }
-        if (by_factor) return true;
+        if (by_factor || ratio2 < 1 + 1e-5) return by_factor;
 
         const double s = (ratio2 - 1) / (ratio2 + 1);
         const Place a{piece.ax, piece.ay};
@@ -193,7 +202,7 @@ void CandidateGrid::build(double reach_px, double anisotropy) {
     std::iota(all.begin(), all.end(), std::uint16_t{0});
     int size = 1;
     while (size < std::max(columns_, rows_)) size *= 2;
-    Divider{*this, {}, 0}.divide(0, 0, size, all);
+    Divider{*this}.divide(0, 0, size, all);
 }
 
 double CandidateGrid::mean_candidates() const {

@@ -21,12 +21,13 @@ Cover::Cover(const Contour& contour) {
     // Pieces that run on from each other are one part as long as it stays short; any that follow
     // each other only where there would be too many parts.
     const double longest_px = contour.length_px() / usual_parts;
-    std::vector<double> length_px;
-    std::vector<std::size_t> first;
+    std::vector<double> length_px;     // by part
+    std::vector<std::size_t> first;    // its first piece
+    std::vector<std::size_t> part_of;  // by piece
     const auto group = [&](const auto& goes_on) {
         length_px.clear();
         first.clear();
-        part_of_.clear();
+        part_of.clear();
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             const Piece& piece = pieces[i];
             const double more_px = std::hypot(piece.bx - piece.ax, piece.by - piece.ay);
@@ -36,7 +37,7 @@ Cover::Cover(const Contour& contour) {
                 length_px.push_back(more_px);
                 first.push_back(i);
             }
-            part_of_.push_back(static_cast<std::uint16_t>(first.size() - 1));
+            part_of.push_back(first.size() - 1);
         }
     };
     group([&](std::size_t i, double together_px) {
@@ -48,37 +49,41 @@ Cover::Cover(const Contour& contour) {
         group([&](std::size_t i, double) { return i % of_one != 0; });
     }
 
-    const auto parts = static_cast<Eigen::Index>(first.size());
-    for (Numbers* numbers : {&middle_px_.x, &middle_px_.y, &along_px_.x, &along_px_.y}) {
-        numbers->resize(parts);
-    }
-    for (Eigen::Index part = 0; part < parts; ++part) {
-        const std::size_t i = first[static_cast<std::size_t>(part)];
-        const Piece& piece = pieces[i];
-        piece_.push_back(static_cast<std::int32_t>(i));
-        middle_px_.x(part) = (piece.ax + piece.bx) / 2;
-        middle_px_.y(part) = (piece.ay + piece.by) / 2;
-        // As long as they all are, the first one's way.
-        const Eigen::Vector2d along(piece.bx - piece.ax, piece.by - piece.ay);
-        const double own_px = along.norm();
-        const double longer = own_px > 0 ? length_px[static_cast<std::size_t>(part)] / own_px : 1;
-        along_px_.x(part) = along.x() * longer;
-        along_px_.y(part) = along.y() * longer;
-    }
     // Sectors of equal length, in order of the angle about the centre.
-    std::vector<Eigen::Index> order(static_cast<std::size_t>(parts));
-    std::iota(order.begin(), order.end(), Eigen::Index{0});
-    const auto angle = [&](Eigen::Index i) { return std::atan2(middle_px_.y(i), middle_px_.x(i)); };
+    std::vector<std::size_t> order(first.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto angle = [&](std::size_t part) {
+        const Piece& piece = pieces[first[part]];
+        return std::atan2((piece.ay + piece.by) / 2, (piece.ax + piece.bx) / 2);
+    };
     std::stable_sort(order.begin(), order.end(),
-                     [&](Eigen::Index l, Eigen::Index r) { return angle(l) < angle(r); });
-    sector_.resize(static_cast<std::size_t>(parts));
-    double before_px = 0;
-    for (const Eigen::Index i : order) {
-        const double at = before_px / std::max(contour.length_px(), 1e-9);
-        sector_[static_cast<std::size_t>(i)] =
-            std::min(static_cast<std::size_t>(at * sectors), sectors - 1);
-        before_px += length_px[static_cast<std::size_t>(i)];
+                     [&](std::size_t l, std::size_t r) { return angle(l) < angle(r); });
+    for (Numbers* numbers : {&middle_px_.x, &middle_px_.y, &along_px_.x, &along_px_.y}) {
+        numbers->resize(static_cast<Eigen::Index>(order.size()));
     }
+    std::vector<std::uint8_t> sector(first.size());
+    std::size_t begun = 0;
+    double before_px = 0;
+    for (const std::size_t part : order) {
+        const double at = before_px / std::max(contour.length_px(), 1e-9);
+        const std::size_t in = std::min(static_cast<std::size_t>(at * sectors), sectors - 1);
+        sector[part] = static_cast<std::uint8_t>(in);
+        before_px += length_px[part];
+        while (begun < in) begin_[++begun] = piece_.size();
+
+        const Piece& piece = pieces[first[part]];
+        const auto i = static_cast<Eigen::Index>(piece_.size());
+        piece_.push_back(static_cast<std::int32_t>(first[part]));
+        middle_px_.x(i) = (piece.ax + piece.bx) / 2;
+        middle_px_.y(i) = (piece.ay + piece.by) / 2;
+        // As long as they all are, the first one's way.
+        const double own_px = std::hypot(piece.bx - piece.ax, piece.by - piece.ay);
+        const double longer = own_px > 0 ? length_px[part] / own_px : 1;
+        along_px_.x(i) = (piece.bx - piece.ax) * longer;
+        along_px_.y(i) = (piece.by - piece.ay) * longer;
+    }
+    while (begun < sectors) begin_[++begun] = piece_.size();
+    for (const std::size_t part : part_of) sector_of_.push_back(sector[part]);
 }
 
 void Cover::restart() {
@@ -90,25 +95,34 @@ void Cover::restart() {
 
 void Cover::close_window(const Outline& outline, const Pose& pose, const Velocity& velocity) {
     const Eigen::Matrix2d& a = pose.a;
-    // The speed of each part's middle, and what of it goes across the part.
-    const Vectors d{a(0, 0) * middle_px_.x + a(0, 1) * middle_px_.y,
-                    a(1, 0) * middle_px_.x + a(1, 1) * middle_px_.y};
-    const double omega = velocity.omega_rad_s;
+    // The speed of each part's middle, v + ω × d + growth·d for d = A·m, and what of it goes across
+    // the part.
+    const double turn = velocity.omega_rad_s;
     const double growth = velocity.scale_x_rate_per_s;
-    const Vectors speed{(velocity.vx_px_s - omega * d.y) + growth * d.x,
-                        (velocity.vy_px_s + omega * d.x) + growth * d.y};
+    Eigen::Matrix2d rate_of_d;
+    rate_of_d << growth, -turn, turn, growth;
+    const Eigen::Matrix2d g = rate_of_d * a;
+    const Vectors speed{velocity.vx_px_s + g(0, 0) * middle_px_.x + g(0, 1) * middle_px_.y,
+                        velocity.vy_px_s + g(1, 0) * middle_px_.x + g(1, 1) * middle_px_.y};
+    double fastest2 = 0;
+    for (Eigen::Index i = 0; i < speed.x.size(); ++i) {
+        fastest2 = std::max(fastest2, speed.x(i) * speed.x(i) + speed.y(i) * speed.y(i));
+    }
+    const double per_fastest = 1 / std::max(1e-9, std::sqrt(fastest2));
     const Vectors along{a(0, 0) * along_px_.x + a(0, 1) * along_px_.y,
                         a(1, 0) * along_px_.x + a(1, 1) * along_px_.y};
-    const double fastest2 = (speed.x * speed.x + speed.y * speed.y).maxCoeff();
-    const double fastest_px_s = std::max(1e-9, std::sqrt(fastest2));
-    const Numbers part_rate = (along.x * speed.y - along.y * speed.x).abs() / fastest_px_s +
+    const Numbers part_rate = (along.x * speed.y - along.y * speed.x).abs() * per_fastest +
                               sideways_share * (along.x * along.x + along.y * along.y).sqrt();
     std::array<double, sectors> rate{};
     double sum = 0;
-    for (std::size_t i = 0; i < sector_.size(); ++i) {
-        if (outline.is_hidden(piece_[i])) continue;
-        rate[sector_[i]] += part_rate(static_cast<Eigen::Index>(i));
-        sum += part_rate(static_cast<Eigen::Index>(i));
+    for (std::size_t sector = 0; sector < sectors; ++sector) {
+        double of_sector = 0;
+        for (std::size_t i = begin_[sector]; i < begin_[sector + 1]; ++i) {
+            if (outline.is_hidden(piece_[i])) continue;
+            of_sector += part_rate(static_cast<Eigen::Index>(i));
+        }
+        rate[sector] = of_sector;
+        sum += of_sector;
     }
     double counted = 0;
     double expected = 0;

@@ -23,7 +23,7 @@ class Cover {
 
     /// An event on this piece of the contour; true where close_window() is to be called now.
     [[nodiscard]] bool count(std::int32_t piece) {
-        ++counted_[sector_[part_of_[static_cast<std::size_t>(piece)]]];
+        ++counted_[sector_of_[static_cast<std::size_t>(piece)]];
         return ++events_ >= window_events;
     }
     /// Weighs what was counted, under this pose and velocity. Nothing is expected of what the
@@ -45,10 +45,10 @@ class Cover {
         Numbers x, y;
     };
 
-    std::vector<std::uint16_t> part_of_;  // by piece
-    std::vector<std::size_t> sector_;     // by part
-    std::vector<std::int32_t> piece_;     // its first
-    Vectors middle_px_;                   // model frame
+    std::vector<std::uint8_t> sector_of_;           // by piece
+    std::array<std::size_t, sectors + 1> begin_{};  // of each sector's parts
+    std::vector<std::int32_t> piece_;               // by part: its first
+    Vectors middle_px_;                             // model frame
     Vectors along_px_;
     std::array<double, sectors> counted_{};
     std::array<double, sectors> expected_{};
