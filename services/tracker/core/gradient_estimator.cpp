@@ -42,12 +42,13 @@ Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     if (q_.squaredNorm() > within_px * within_px) return {};
     if (!is_laid_out_) lay_out();
     const bool wants_points = pull_ == Pull::point;
-    const CandidateGrid& grid = wants_points ? contour_.points() : contour_.pieces();
-    CandidateGrid::Nearest nearest;
+    const double gate2 = parameters_.gate_px * parameters_.gate_px;
     CandidateGrid::Nearest on_contour;
+    CandidateGrid::Nearest nearest;
     const auto look_up = [&](double x, double y, const auto& metric) {
-        nearest = grid.nearest(x, y, metric);
-        on_contour = wants_points ? contour_.pieces().nearest(x, y, metric) : nearest;
+        on_contour = contour_.pieces().nearest(x, y, metric);
+        if (on_contour.piece < 0 || on_contour.squared_px > gate2) return;  // no point is nearer
+        nearest = wants_points ? contour_.points().nearest(x, y, metric) : on_contour;
     };
     const Eigen::Matrix2d& a = pose_.a;
     if (transform_ == TransformKind::isometry) {
@@ -59,9 +60,9 @@ Approach GradientEstimator::approach(const Event& event, std::int64_t) {
         look_up((a(1, 1) * q_.x() - a(0, 1) * q_.y()) * per_area,
                 (a(0, 0) * q_.y() - a(1, 0) * q_.x()) * per_area, ImageMetric(a));
     }
-    if (nearest.piece < 0) return {};
-    if (nearest.squared_px > parameters_.gate_px * parameters_.gate_px) return {};
+    if (nearest.piece < 0 || nearest.squared_px > gate2) return {};
     distance_px_ = std::sqrt(nearest.squared_px);
+    const CandidateGrid& grid = wants_points ? contour_.points() : contour_.pieces();
     const Segment& segment = grid.segment(nearest.piece);
     m_ << segment.ax + nearest.foot * segment.dx, segment.ay + nearest.foot * segment.dy;
     t_us_ = event.t_us;

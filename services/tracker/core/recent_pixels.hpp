@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "services/common/event.hpp"
+#include "services/tracker/core/large_table.hpp"
 
 namespace pursuit::tracker {
 
@@ -37,7 +37,7 @@ class RecentPixels {
 
  private:
     std::size_t width_ = 0;
-    std::vector<std::int64_t> last_us_;
+    LargeTable<std::int64_t> last_us_;
 };
 
 }  // namespace pursuit::tracker
