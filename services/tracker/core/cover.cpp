@@ -111,15 +111,17 @@ void Cover::close_window(const Outline& outline, const Pose& pose, const Velocit
     const double per_fastest = 1 / std::max(1e-9, std::sqrt(fastest2));
     const Vectors along{a(0, 0) * along_px_.x + a(0, 1) * along_px_.y,
                         a(1, 0) * along_px_.x + a(1, 1) * along_px_.y};
-    const Numbers part_rate = (along.x * speed.y - along.y * speed.x).abs() * per_fastest +
-                              sideways_share * (along.x * along.x + along.y * along.y).sqrt();
+    const Numbers across = (along.x * speed.y - along.y * speed.x).abs() * per_fastest;
+    const Numbers length2 = along.x * along.x + along.y * along.y;
     std::array<double, sectors> rate{};
     double sum = 0;
     for (std::size_t sector = 0; sector < sectors; ++sector) {
         double of_sector = 0;
         for (std::size_t i = begin_[sector]; i < begin_[sector + 1]; ++i) {
             if (outline.is_hidden(piece_[i])) continue;
-            of_sector += part_rate(static_cast<Eigen::Index>(i));
+            const auto part = static_cast<Eigen::Index>(i);
+            // Not the vectors' own root: with AVX-512 that is another one.
+            of_sector += across(part) + sideways_share * std::sqrt(length2(part));
         }
         rate[sector] = of_sector;
         sum += of_sector;
