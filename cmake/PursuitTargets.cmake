@@ -10,6 +10,10 @@ set(CMAKE_C_FLAGS_SANITIZE "-O1 -g1")
 
 add_library(pursuit_options INTERFACE)
 target_compile_options(pursuit_options INTERFACE -ffp-contract=off)
+# A build for one processor: what Eigen makes of these two by itself rounds otherwise.
+if("${CMAKE_CXX_FLAGS}" MATCHES "-march=")
+    target_compile_options(pursuit_options INTERFACE -mno-fma -mno-avx512f)
+endif()
 target_include_directories(pursuit_options INTERFACE ${CMAKE_SOURCE_DIR})
 if(PURSUIT_SANITIZE)
     target_compile_options(pursuit_options INTERFACE -fsanitize=${PURSUIT_SANITIZE}
