@@ -45,11 +45,18 @@ class Doubt {
     /// How many searches were made.
     [[nodiscard]] int tries() const { return tries_; }
 
+    /// Not enough events for a search: later, and later again.
+    void wait(std::int64_t t_us) {
+        due_us_ = t_us + wait_us_;
+        wait_us_ = std::min(2 * wait_us_, longest_wait_us);
+    }
+
     /// True where the object is to be moved to what was found. One finding may tell; else what
     /// several in turn gain adds up.
     bool take(std::int64_t t_us, const Finding& finding) {
         due_us_ = t_us + (finding.is_here ? next_us : soon_us) * std::clamp(tries_, 2, 6) / 2;
         if (++tries_ >= most_tries) wanted_ = 0;
+        wait_us_ = first_us;
         if (!finding.is_told) return false;
         if (finding.is_here) {
             for_move_ = std::min(for_move_, 0.0) - usual_gain;
@@ -72,6 +79,7 @@ class Doubt {
  private:
     static constexpr std::int64_t first_us = 2'000;
     static constexpr std::int64_t next_us = 10'000;
+    static constexpr std::int64_t longest_wait_us = 32'000;
     static constexpr std::int64_t soon_us = 5'000;
     static constexpr int most_tries = 40;
     static constexpr double usual_gain = 0.1;
@@ -82,6 +90,7 @@ class Doubt {
     int tries_ = 0;
     std::int64_t since_us_ = 0;
     std::int64_t due_us_ = 0;
+    std::int64_t wait_us_ = first_us;
     double for_move_ = 0;
     Eigen::Vector2d off_px_ = Eigen::Vector2d::Zero();
     std::optional<Coast> before_;

@@ -83,7 +83,10 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
     ++attempt_;
     last_object_id_ = chosen->object_id();
     gather(t_us, range, chosen->radius_px(), count);
-    if (gathered_.size() < (is_check_ ? wanted_events(*chosen, 0.2) : count / 8)) return;
+    if (gathered_.size() < (is_check_ ? wanted_events(*chosen, 0.2) : count / 8)) {
+        if (is_check_) chosen->wait_to_check(t_us);
+        return;
+    }
     going_ = range.going;
     checked_ = range.checked;
     if (is_check_ && !going_) {

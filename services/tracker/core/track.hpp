@@ -81,6 +81,8 @@ class Track {
     bool take_finding(std::int64_t t_us, const Doubt::Finding& finding) {
         return doubt_.take(t_us, finding);
     }
+    /// There were too few events to tell.
+    void wait_to_check(std::int64_t t_us) { doubt_.wait(t_us); }
     /// The object is rather here than where it was thought to be.
     void move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocity);
     [[nodiscard]] const Doubt& doubt() const { return doubt_; }

@@ -82,6 +82,24 @@ TEST(Doubt, moves_the_object_for_unsure_findings_that_agree_and_not_for_those_th
     }
 }
 
+TEST(Doubt, waits_longer_and_longer_while_there_are_too_few_events_and_not_for_ever) {
+    Doubt doubt;
+    doubt.begin(0, 1, 0);
+    std::int64_t t_us = 10'000;
+    std::int64_t last_us = 0;
+    for (int i = 0; i < 20; ++i) {
+        ASSERT_TRUE(doubt.is_due(t_us));
+        doubt.wait(t_us);
+        std::int64_t waited_us = 0;
+        while (!doubt.is_due(t_us + waited_us)) waited_us += 1'000;
+        EXPECT_GE(waited_us, last_us);
+        EXPECT_LE(waited_us, 32'000);
+        last_us = waited_us;
+        t_us += waited_us;
+    }
+    EXPECT_TRUE(doubt.is_open());
+}
+
 TEST(Doubt, ends_by_itself_when_no_search_is_sure) {
     Doubt doubt;
     doubt.begin(0, 3, 0);
