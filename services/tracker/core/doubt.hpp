@@ -37,6 +37,8 @@ class Doubt {
         before_ = before;
     }
 
+    void settle() { wanted_ = 0; }
+
     [[nodiscard]] bool is_open() const { return wanted_ > 0; }
     [[nodiscard]] bool is_due(std::int64_t t_us) const { return wanted_ > 0 && t_us >= due_us_; }
     [[nodiscard]] std::int64_t since_us() const { return since_us_; }

@@ -38,6 +38,9 @@ constexpr std::array tracker_table{
     Parameter<TrackerParameters>{"tells_occlusion", &TrackerParameters::tells_occlusion, 0, 1, "1",
                                  "1: which object hides which is told, and hidden parts take no "
                                  "events; 0: the occlusion strategy alone decides"},
+    Parameter<TrackerParameters>{"checks_pose", &TrackerParameters::checks_pose, 0, 1, "1",
+                                 "1: searches confirm where an object is thought to be, at its "
+                                 "start and after silences, or move it; 0: nothing does"},
 };
 
 constexpr std::array strategy_table{
@@ -126,6 +129,7 @@ Preset paper() {
                   {}};
     preset.object.gate_px = 3;
     preset.tracker.tells_occlusion = 0;
+    preset.tracker.checks_pose = 0;
     preset.object.let_go_sharpness = 0;  // The paper's tracks have no end.
     preset.object.gradient_position_gain = 0.1;
     preset.object.gradient_angle_gain_rad_px2 = 2e-5;

@@ -36,6 +36,7 @@ struct ObjectParameters {
 struct TrackerParameters {
     double coast_s = 0.8;
     double tells_occlusion = 1;
+    double checks_pose = 1;
 
     friend bool operator==(const TrackerParameters&, const TrackerParameters&) = default;
 };

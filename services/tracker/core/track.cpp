@@ -103,6 +103,7 @@ void Track::replace(const RegisteredObject& object) {
 void Track::set_parameters(const ObjectParameters& parameters, const TrackerParameters& tracker) {
     parameters_ = parameters;
     tracker_ = tracker;
+    if (tracker.checks_pose < 0.5) doubt_.settle();
     estimator_->set_parameters(parameters);
 }
 
@@ -123,7 +124,7 @@ void Track::restart(const RegisteredObject& object) {
     against_us_ = 0;
     heard_us_ = -1;
     is_silent_ = false;
-    doubt_.begin(0, start_confirmations, 0);
+    begin_doubt(0, start_confirmations, 0);
     health_.restart();
     cover_->restart();
     estimator_->restart(object.start.pose, object.start.velocity);
@@ -131,6 +132,9 @@ void Track::restart(const RegisteredObject& object) {
 }
 
 void Track::begin_stream() {
+    heard_us_ = -1;
+    is_silent_ = false;
+    if (doubt_.is_open()) begin_doubt(0, start_confirmations, 0);
     // A start pose that no event has moved yet was given for the stream that begins.
     if (is_searching_ || is_fresh_) return;
     slow_.restart();
@@ -196,7 +200,7 @@ void Track::acquire(std::int64_t t_us) {
     for (Coast& good : good_) good = {t_us, acquisition_->pose(), acquisition_->velocity()};
     heard_us_ = t_us;
     is_silent_ = false;
-    doubt_.begin(t_us, found_confirmations, t_us);
+    begin_doubt(t_us, found_confirmations, t_us);
 }
 
 Pose Track::coasted(std::int64_t t_us) const { return good_[1].at(t_us, tracker_.coast_s).pose; }
@@ -266,6 +270,7 @@ void Track::offer(std::int64_t t_us, const Pose& pose) {
 Doubt::Finding Track::compare(const std::optional<ShapeSearch::Found>& found, const Pose& checked,
                               double own_score) const {
     Doubt::Finding finding;
+    finding.is_told = found.has_value();
     if (!found) return finding;
     finding.off_px = found->pose.t_px - checked.t_px;
     const double turned_px =
@@ -293,7 +298,12 @@ void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocit
     }
     for (Coast& good : good_) good = {t_us, moved, velocity};
     // What came before the move is of the same object.
-    doubt_.begin(t_us, found_confirmations, doubt_.since_us());
+    begin_doubt(t_us, found_confirmations, doubt_.since_us());
+}
+
+void Track::begin_doubt(std::int64_t t_us, int confirmations, std::int64_t since_us,
+                        const std::optional<Coast>& before) {
+    if (tracker_.checks_pose >= 0.5) doubt_.begin(t_us, confirmations, since_us, before);
 }
 
 // Fewer events than it makes: none at all where many should have come.
@@ -308,7 +318,7 @@ void Track::hear(std::int64_t t_us) {
     if (silence_us < silent_us && seconds(silence_us) * speed_px_s() < same_px) return;
     is_silent_ = true;
     const Coast before{heard_us_, estimator_->pose(), estimator_->velocity()};
-    doubt_.begin(t_us, found_confirmations, t_us, before);
+    begin_doubt(t_us, found_confirmations, t_us, before);
 }
 
 Pose Track::pose() const {
@@ -461,7 +471,7 @@ void Track::see(std::int64_t t_us) {
     // Held by little of its contour it may have slid along what was seen of it.
     if (emerges_ && emerged_us_ < 0 && visible_share_ > checked_share && can_be_hidden()) {
         emerges_ = false;
-        doubt_.begin(t_us, start_confirmations, emerged_at_us_);
+        begin_doubt(t_us, start_confirmations, emerged_at_us_);
     }
     if (!is_covered_ && can_be_hidden() && visible_share_ < covered_share) cover(t_us);
     if (is_covered_ && visible_share_ > uncovered_share) uncover(t_us);

@@ -121,6 +121,8 @@ class Track {
  private:
     void make_for(const RegisteredObject& object);
     void remember_good(std::int64_t t_us);
+    void begin_doubt(std::int64_t t_us, int confirmations, std::int64_t since_us,
+                     const std::optional<Coast>& before = std::nullopt);
     [[nodiscard]] bool is_silent(std::int64_t t_us) const;
     /// Notes that the object has fallen silent.
     void hear(std::int64_t t_us);

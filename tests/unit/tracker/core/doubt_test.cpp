@@ -142,6 +142,18 @@ TEST(Doubt, finds_a_fast_object_that_starts_20_px_and_a_fifth_of_a_radian_off) {
     }
 }
 
+TEST(Doubt, checks_nothing_where_it_is_switched_off) {
+    const auto truth = [](double t_us) { return turning(t_us, 70); };
+    Pose start = truth(0);
+    start.t_px.x() += 20;
+    Tracker tracker = with_arrow(start);
+    const std::vector<NamedValue> off{{"checks_pose", 0}, {"let_go_sharpness", 0}};
+    ASSERT_TRUE(tracker.set_parameters("", off));
+    Poses poses;
+    tracker.process(outline_events(arrow(), truth, 0, 100'000, 300, 5, small_sensor, 3), poses);
+    EXPECT_GT(rms_px(arrow(), poses.rows.back().record.pose, truth(99e3)), 5);
+}
+
 TEST(Doubt, takes_up_a_turning_object_after_a_silence_and_never_lies_in_it) {
     const auto truth = [](double t_us) { return turning(t_us, 131); };
     for (const std::int64_t gap_us : {5'000, 30'000, 90'000}) {
