@@ -1,12 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is compared: this tracker with its constants, frame-based methods, and the true pose."""
 
+import math
 import os
+import random
 import re
 import shutil
 from dataclasses import dataclass
 
 from programs import CTL, FRAME_BASED, digest_of_program, run
+
+
+def moved(start, off_px, stream):
+    """A model's start so far off, in a direction drawn for the stream, and by 0.1 rad."""
+    path, at, pose = start.partition("@")
+    if not at or not off_px:
+        return start
+    x_px, y_px, theta_rad, *rest = (float(v) for v in pose.split(","))
+    draw = random.Random(f"{stream} {os.path.basename(path)}")
+    direction = draw.uniform(0, 2 * math.pi)
+    values = [x_px + off_px * math.cos(direction), y_px + off_px * math.sin(direction),
+              theta_rad + draw.choice((-0.1, 0.1)), *rest]
+    return path + "@" + ",".join(f"{v:.6f}" for v in values)
 
 
 @dataclass(frozen=True)
@@ -18,10 +33,12 @@ class Pursuit:
     strategy: str = ""
     transform: str = ""  # instead of the one that the scene states
     parameters: tuple = ()
+    start_off_px: float = 0
 
     def key(self):
+        off = f" off {self.start_off_px}" if self.start_off_px else ""
         return f"pursuit {self.preset} {self.estimator} {self.strategy} {self.transform} " \
-               f"{self.parameters} {digest_of_program(CTL)}"
+               f"{self.parameters}{off} {digest_of_program(CTL)}"
 
     def track(self, files, folder):
         """Writes poses.csv and returns its path and the seconds that it took."""
@@ -37,8 +54,9 @@ class Pursuit:
             arguments += ["--estimator", self.estimator]
         if self.strategy:
             arguments += ["--strategy", self.strategy]
+        stream = os.path.basename(os.path.dirname(files.events))
         for start in files.starts():
-            arguments += ["--model", start]
+            arguments += ["--model", moved(start, self.start_off_px, stream)]
         _, said = run(arguments)
         return poses, float(re.search(r"events in ([0-9.]+) s", said).group(1))
 
