@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace pursuit::tracker {
 namespace {
@@ -64,17 +65,19 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
     due_us_ = t_us + idle_us;
     // By turns: those after the last first.
     Track* chosen = nullptr;
+    std::optional<SearchRange> wanted;
     for (int round = 0; round < 2 && chosen == nullptr; ++round) {
         for (Track& track : tracks) {
             if (round == 0 && track.object_id() <= last_object_id_) continue;
-            if (!track.wanted(t_us, geometry_)) continue;
+            wanted = track.wanted(t_us, geometry_);
+            if (!wanted) continue;
             chosen = &track;
             break;
         }
     }
     if (chosen == nullptr) return;
     if (chosen->object_id() != last_object_id_) attempt_ = 0;
-    SearchRange range = *chosen->wanted(t_us, geometry_);
+    SearchRange range = *std::move(wanted);
     is_check_ = range.is_check;
     constexpr std::array times{1.0, 3.0, 9.0};
     constexpr std::array of_check{1.0, 0.3, 3.0};  // where the object is alone, and fast

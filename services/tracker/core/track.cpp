@@ -45,7 +45,8 @@ constexpr std::int64_t silent_us = 3'000;
 constexpr double unseen_way_px = 5;  // and may have gone so far meanwhile
 constexpr double same_px = 2.5;
 constexpr double checked_share = 0.7;
-constexpr double least_told = 0.45;  // score
+constexpr double least_told = 0.45;       // score
+constexpr double extracted_margin = 0.2;  // of score; for models extracted from a recording
 constexpr int start_confirmations = 3;
 constexpr int found_confirmations = 2;
 
@@ -280,7 +281,7 @@ Doubt::Finding Track::compare(const std::optional<ShapeSearch::Found>& found, co
     // What was extracted from a recording fits in part only, wherever it is.
     const bool is_worth_it = found->score > least_told;
     finding.is_told = found->is_sure || (is_worth_it && (contour_.is_outline() || finding.is_here));
-    finding.gain = found->score - own_score - (contour_.is_outline() ? 0 : 0.2);
+    finding.gain = found->score - own_score - (contour_.is_outline() ? 0 : extracted_margin);
     return finding;
 }
 

@@ -14,6 +14,7 @@ using test::outline_events;
 using test::Poses;
 using test::rms_px;
 using test::small_sensor;
+using test::that_follows_an_arrow;
 
 // A shape fixed off the centre of a turning disc.
 Pose turning(double t_us, double omega_rad_s) {
@@ -111,24 +112,13 @@ TEST(Doubt, ends_by_itself_when_no_search_is_sure) {
     EXPECT_LE(searches, 40);
 }
 
-Tracker with_arrow(const Pose& start) {
-    Tracker tracker = std::move(*Tracker::create({}));
-    tracker.begin_stream(small_sensor, 1);
-    Registration registration;
-    registration.shape = arrow();
-    registration.estimator = EstimatorKind::kalman;
-    registration.start.pose = start;
-    EXPECT_TRUE(tracker.register_object(registration));
-    return tracker;
-}
-
 TEST(Doubt, finds_a_fast_object_that_starts_20_px_and_a_fifth_of_a_radian_off) {
     const auto truth = [](double t_us) { return turning(t_us, 70); };
     for (const double direction : {0.0, 1.6, 3.1, 4.7}) {
         Pose start = truth(0);
         start.t_px += 20 * Eigen::Vector2d(std::cos(direction), std::sin(direction));
         start.a = rotation(0.2) * start.a;
-        Tracker tracker = with_arrow(start);
+        Tracker tracker = that_follows_an_arrow(start);
         Poses poses;
         tracker.process(outline_events(arrow(), truth, 0, 200'000, 300, 5, small_sensor, 3), poses);
         for (const auto& row : poses.rows) {
@@ -146,7 +136,7 @@ TEST(Doubt, checks_nothing_where_it_is_switched_off) {
     const auto truth = [](double t_us) { return turning(t_us, 70); };
     Pose start = truth(0);
     start.t_px.x() += 20;
-    Tracker tracker = with_arrow(start);
+    Tracker tracker = that_follows_an_arrow(start);
     const std::vector<NamedValue> off{{"checks_pose", 0}, {"let_go_sharpness", 0}};
     ASSERT_TRUE(tracker.set_parameters("", off));
     Poses poses;
@@ -162,7 +152,7 @@ TEST(Doubt, takes_up_a_turning_object_after_a_silence_and_never_lies_in_it) {
         const auto after =
             outline_events(arrow(), truth, end_us, end_us + 60'000, 300, 1, small_sensor, 8);
         events.insert(events.end(), after.begin(), after.end());
-        Tracker tracker = with_arrow(truth(0));
+        Tracker tracker = that_follows_an_arrow(truth(0));
         Poses poses;
         tracker.process(events, poses);
         for (const auto& row : poses.rows) {

@@ -15,22 +15,12 @@ using test::outline_events;
 using test::Poses;
 using test::rms_px;
 using test::small_sensor;
+using test::that_follows_an_arrow;
 
 Pose swinging(double t_us) {
     const double t_s = t_us * 1e-6;
     return pose_of(150 + 60 * std::sin(3 * t_s), 110 + 30 * std::sin(4 * t_s),
                    0.6 * std::sin(2.5 * t_s));
-}
-
-Tracker that_follows_an_arrow(const Pose& start) {
-    Tracker tracker = std::move(*Tracker::create({}));
-    tracker.begin_stream(small_sensor, 1);
-    Registration registration;
-    registration.shape = arrow();
-    registration.estimator = EstimatorKind::kalman;
-    registration.start.pose = start;
-    EXPECT_TRUE(tracker.register_object(registration));
-    return tracker;
 }
 
 const PoseRecord& last(const Poses& poses) { return poses.rows.back().record; }

@@ -10,6 +10,7 @@
 #include "services/common/event.hpp"
 #include "services/tracker/core/pose_record.hpp"
 #include "services/tracker/core/registration.hpp"
+#include "services/tracker/core/tracker.hpp"
 
 namespace pursuit::tracker::test {
 
@@ -68,6 +69,18 @@ inline Shape ring(const std::string& name, double radius_px, int points) {
 inline Shape arrow(std::string name = "arrow") {
     return polygon(std::move(name),
                    {{-30, -6}, {8, -6}, {8, -18}, {32, 0}, {8, 14}, {8, 6}, {-30, 6}});
+}
+
+/// A tracker that follows an arrow with the filter, from this start, in a new stream.
+inline Tracker that_follows_an_arrow(const Pose& start) {
+    Tracker tracker = Tracker::create({}).value();
+    tracker.begin_stream(small_sensor, 1);
+    Registration registration;
+    registration.shape = arrow();
+    registration.estimator = EstimatorKind::kalman;
+    registration.start.pose = start;
+    tracker.register_object(registration).value();  // throws where it is refused
+    return tracker;
 }
 
 /// Events of an outline that moves: `per_ms` events a ms at places drawn evenly along the contour,
