@@ -22,8 +22,10 @@ dds::DomainParticipantQos participant_qos(const disk::Dds& settings, const std::
     qos.name(name);
     auto& discovery = qos.wire_protocol().builtin.discovery_config;
     discovery.leaseDuration = {5, 0};
-    discovery.leaseDuration_announcementperiod = {1, 0};
-    // Quick announcements at the start: a restarted service is found again within a second.
+    // A participant answers a newcomer once; where that answer comes before the newcomer listens,
+    // the next periodic announcement is what it hears. So this period bounds how late a restarted
+    // service is found again.
+    discovery.leaseDuration_announcementperiod = {0, 250'000'000};
     discovery.initial_announcements.count = 10;
     discovery.initial_announcements.period = {0, 50'000'000};
 

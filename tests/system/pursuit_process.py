@@ -62,13 +62,13 @@ class Process:
         if ready:
             self.notify = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
             self.notify.bind(stem + ".notify")
-            self.notify.settimeout(10)
+            self.notify.settimeout(0.1)
             environment["NOTIFY_SOCKET"] = stem + ".notify"
         with open(self.out_path, "wb") as out, open(self.err_path, "wb") as err:
             path = name if os.path.sep in name else program(name)
+            self.started = time.monotonic()
             self.process = subprocess.Popen([path] + [str(a) for a in arguments], stdout=out,
                                             stderr=err, stdin=subprocess.DEVNULL, env=environment)
-        self.started = time.monotonic()
         if ready:
             self.wait_ready()
 
@@ -77,7 +77,9 @@ class Process:
             try:
                 message = self.notify.recv(4096)
             except socket.timeout:
-                raise AssertionError(f"{self.name} is not READY after 10 s: {self.err()}")
+                if not self.alive() or time.monotonic() - self.started > 10:
+                    raise AssertionError(f"{self.name} is not READY: {self.err()}")
+                continue
             if b"READY=1" in message:
                 break
         self.ready_after = time.monotonic() - self.started
