@@ -103,6 +103,15 @@ class Restart(SystemTest):
         print(f"poses resumed {took:.2f} s after the sensor's restart")
         self.assertLess(took, 1.0)
         self.assertEqual(pose["object_id"], 1)
+        # The objects have moved while nobody looked: they are searched for, and told lost so long.
+        for model in ("van", "car"):
+            pose, came = self.next_pose(viewer, seen, lambda p: p["model"] == model and
+                                        p["stream_id"] != stream and p["state"] == "TRACKING")
+            x_px, y_px = self.truth_at(model, pose["t_us"])
+            print(f"{model} found {came - restarted:.2f} s after the sensor's restart, "
+                  f"{abs(pose['x_px'] - x_px):.2f} px from the truth in x")
+            self.assertLess(abs(pose["x_px"] - x_px), 3)
+            self.assertLess(abs(pose["y_px"] - y_px), 3)
         self.assertTrue(self.tracker.alive())
         status = self.status("tracker")
         self.assertFalse(status["sensor_silent"])

@@ -9,9 +9,6 @@
 namespace pursuit::tracker {
 namespace {
 
-constexpr std::int64_t longest_us = 40'000;
-constexpr std::int64_t longest_of_check_us = 150'000;
-constexpr std::int64_t neighbour_us = 5'000;
 constexpr std::int64_t never_us = std::int64_t{-1} << 40;
 
 // How often it is asked who wants to be looked for.
@@ -21,8 +18,7 @@ constexpr std::int64_t idle_us = 2'000;
 constexpr std::int64_t poses_per_us = 40;
 constexpr std::int64_t most_poses = 4'000;
 
-// Events a px of contour: of a way of 2 px or so, when the shape is alone. Where it is not, more
-// are needed, and the first may be too few: by turns.
+// Events a px of contour: of a way of 2 px or so, when the shape is alone.
 constexpr double events_per_px = 3;
 
 // The second look, at where the shape has gone during the first.
@@ -76,14 +72,13 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
         }
     }
     if (chosen == nullptr) return;
-    if (chosen->object_id() != last_object_id_) attempt_ = 0;
+    // All objects are looked for in one way before the next way.
+    if (chosen->object_id() <= last_object_id_) ++attempt_;
     SearchRange range = *std::move(wanted);
     is_check_ = range.is_check;
-    constexpr std::array times{1.0, 3.0, 9.0};
-    constexpr std::array of_check{1.0, 0.3, 3.0};  // where the object is alone, and fast
-    const auto& turns = is_check_ ? of_check : times;
-    const std::size_t count = wanted_events(*chosen, turns[attempt_ % turns.size()]);
-    ++attempt_;
+    look_ = is_check_ ? looks_of_check[attempt_ % looks_of_check.size()]
+                      : looks[attempt_ % looks.size()];
+    const std::size_t count = wanted_events(*chosen, look_.times);
     last_object_id_ = chosen->object_id();
     gather(t_us, range, chosen->radius_px(), count);
     if (gathered_.size() < (is_check_ ? wanted_events(*chosen, 0.2) : count / 8)) {
@@ -179,8 +174,7 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
     };
     const int width = geometry_.width;
     const int height = geometry_.height;
-    const std::int64_t since_us =
-        std::max(t_us - (range.is_check ? longest_of_check_us : longest_us), range.since_us);
+    const std::int64_t since_us = std::max(t_us - look_.window_us, range.since_us);
     // They are in order of time.
     std::size_t first = next_ - std::min(next_, ring_.size());
     for (std::size_t end = next_; first < end;) {
@@ -204,7 +198,7 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
         for (int y = std::max(event.y - 1, 0); y <= std::min(event.y + 1, height - 1); ++y) {
             for (int x = std::max(event.x - 1, 0); x <= std::min(event.x + 1, width - 1); ++x) {
                 const bool is_itself = x == event.x && y == event.y;
-                is_supported |= !is_itself && event.t_us - at(x, y) < neighbour_us;
+                is_supported |= !is_itself && event.t_us - at(x, y) < look_.neighbour_us;
             }
         }
         at(event.x, event.y) = event.t_us;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -17,7 +18,7 @@ namespace pursuit::tracker {
 /// finds it offers to the track, which tries it. The work is spread over the events by their time,
 /// so that it neither stalls them nor depends on how fast they are processed.
 ///
-/// Keeps the last 16,384 events of the last 40 ms.
+/// Keeps the last 16,384 events, and looks at those of the last 250 ms at most.
 class Seeker {
  public:
     void restart(Geometry geometry);
@@ -36,6 +37,21 @@ class Seeker {
 
  private:
     static constexpr std::size_t ring_events = 16'384;
+
+    /// What is looked at: how many times the events that a shape makes on a way of 2 px, how far
+    /// back, and how long before an event a neighbour of it fired.
+    struct Look {
+        double times = 1;
+        std::int64_t window_us = 0;
+        std::int64_t neighbour_us = 0;
+    };
+    /// By turns. Where the shape is not alone, more are needed, and the first may be too few; what
+    /// is slow makes enough of them only in a longer time.
+    static constexpr std::array looks{Look{1, 40'000, 5'000}, Look{3, 40'000, 5'000},
+                                      Look{9, 40'000, 5'000}, Look{9, 100'000, 12'500},
+                                      Look{30, 250'000, 31'250}};
+    static constexpr std::array looks_of_check{Look{1, 150'000, 5'000}, Look{0.3, 150'000, 5'000},
+                                               Look{3, 150'000, 5'000}};
 
     void go_on(std::int64_t t_us, std::span<Track> tracks);
     void begin(std::int64_t t_us, std::span<Track> tracks);
@@ -57,6 +73,7 @@ class Seeker {
     std::vector<std::size_t> looked_at_;  // the pixels
     FiredMap map_;
     ShapeSearch search_;
+    Look look_;
     bool is_check_ = false;
     Coast checked_;                // the track, when the gathered events came
     std::optional<Coast> going_;   // how they were led on to where they would come now

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/shape_search.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +19,13 @@ constexpr std::size_t most_turns = 64 * 9;
 constexpr double least_score = 0.4;
 // The best of very many poses fits noise better than chance, the more of it there is.
 constexpr double chance_margin = 0.9;
+
+// Or what fires there lies on the shape, though what lies beside the contour has fired as well: its
+// other lines, or where they were a moment ago.
+constexpr double least_hits = 0.65;
+constexpr double least_explained = 0.7;
+constexpr double on_it_px = 5.0 / 3;
+constexpr double near_it_px = 6;
 
 // Where the object is expected counts for so much of the contour.
 constexpr double seed_bonus = 0.05;
@@ -48,6 +56,29 @@ ShapeSearch::ShapeSearch(const Contour& contour, const Outline& outline)
     coarse_ = samples(coarse_points);
     fine_ = samples(fine_points);
     best_.reserve(kept + 1);
+    draw();
+}
+
+void ShapeSearch::draw() {
+    constexpr double step_px = 0.5;
+    constexpr double margin_px = near_it_px + 2;
+    std::vector<Event> fired;
+    drawn_from_px_.setConstant(-radius_px_ - margin_px);
+    for (const Piece& piece : pieces_) {
+        const Eigen::Vector2d a(piece.ax, piece.ay);
+        const Eigen::Vector2d along(piece.bx - piece.ax, piece.by - piece.ay);
+        const int steps = static_cast<int>(std::ceil(along.norm() / step_px));
+        for (int i = 0; i <= steps; ++i) {
+            const Eigen::Vector2d p =
+                a + static_cast<double>(i) / std::max(steps, 1) * along - drawn_from_px_;
+            Event event{};
+            event.x = static_cast<std::uint16_t>(std::lround(p.x()));
+            event.y = static_cast<std::uint16_t>(std::lround(p.y()));
+            fired.push_back(event);
+        }
+    }
+    const auto side = static_cast<std::uint16_t>(std::ceil(2 * (radius_px_ + margin_px)) + 1);
+    drawn_.build({side, side}, fired);
 }
 
 // At equal distances along the contour.
@@ -148,8 +179,14 @@ void ShapeSearch::weigh(const Pose& pose, bool is_seed) {
     const Pose fit_pose = fitted(pose);
     const Fit fit = fit_of(fit_pose);
     const double far = (fit_pose.t_px - range_.around.t_px).norm() / range_.usual_distance_px;
-    const double worth = fit.score + (is_seed ? seed_bonus : -0.05 * std::min(far * far, 4.0));
-    const bool is_sure = fit.score > least_score + chance_margin * fit.chance;
+    double worth = fit.score + (is_seed ? seed_bonus : -0.05 * std::min(far * far, 4.0));
+    bool is_sure = fit.score > least_score + chance_margin * fit.chance;
+    if (!range_.is_check) {
+        const double share = explained(fit_pose);
+        worth += share;
+        const double hits = fit.chance + fit.score * (1 - fit.chance);
+        is_sure |= fit.score > least_score && hits > least_hits && share > least_explained;
+    }
     if ((is_sure || range_.is_check) && (!found_ || worth > found_->score)) {
         found_ = Found{fit_pose, worth, is_sure};
     }
@@ -237,6 +274,31 @@ Pose ShapeSearch::fitted(Pose pose) const {
         }
     }
     return pose;
+}
+
+double ShapeSearch::explained(const Pose& pose) const {
+    const Eigen::Matrix2d model_from_image = pose.a.inverse();
+    const double cell_px = map_->cell_px();
+    const double reach_px = pose.a.norm() * radius_px_ + near_it_px;
+    const Eigen::Vector2d first = (pose.t_px.array() - reach_px) / cell_px;
+    const Eigen::Vector2d last = (pose.t_px.array() + reach_px) / cell_px;
+    const auto thirds = [&](double px) { return 3 * px / drawn_.cell_px(); };
+    int on_it = 0;
+    int near_it = 0;
+    for (int row = static_cast<int>(first.y()); row <= last.y(); ++row) {
+        for (int column = static_cast<int>(first.x()); column <= last.x(); ++column) {
+            if (map_->distance(column, row) != 0) continue;
+            const Eigen::Vector2d p((column + 0.5) * cell_px - 0.5, (row + 0.5) * cell_px - 0.5);
+            const Eigen::Vector2d m =
+                (model_from_image * (p - pose.t_px) - drawn_from_px_) / drawn_.cell_px();
+            const int distance = drawn_.distance(static_cast<int>(std::lround(m.x())),
+                                                 static_cast<int>(std::lround(m.y())));
+            if (distance > thirds(near_it_px)) continue;
+            ++near_it;
+            on_it += distance <= thirds(on_it_px) ? 1 : 0;
+        }
+    }
+    return near_it == 0 ? 0 : static_cast<double>(on_it) / near_it;
 }
 
 ShapeSearch::Fit ShapeSearch::fit_of(const Pose& pose) const {

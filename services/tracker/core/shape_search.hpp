@@ -31,8 +31,9 @@ struct SearchRange {
 
 /// Finds a shape in what fired lately, without a good guess. What speaks for a pose is that the
 /// contour lies nearer to pixels that fired than its surroundings do, in standard deviations, so
-/// that clutter is not taken for a shape. Coarse over the whole range with few points of the
-/// contour; the best are then moved to where they fit, and looked at with many.
+/// that clutter is not taken for a shape, and that it explains what fired there. Coarse over the
+/// whole range with few points of the contour; the best are then moved to where they fit, and
+/// looked at with many.
 ///
 ///     begin() ─► coarse ─► fine ─► done
 ///
@@ -98,13 +99,19 @@ class ShapeSearch {
         double chance;
     };
     [[nodiscard]] Fit fit_of(const Pose& pose) const;
+    /// Of what fired near the contour, the share that fired on it, 0 … 1: what lies on lines of
+    /// something else leaves others of its lines unexplained.
+    [[nodiscard]] double explained(const Pose& pose) const;
     [[nodiscard]] std::vector<Sample> samples(int count) const;
+    void draw();
 
     std::vector<Piece> pieces_;
     double length_px_ = 0;
     double radius_px_ = 0;
     std::vector<Sample> coarse_;
     std::vector<Sample> fine_;
+    FiredMap drawn_;  // the contour itself, as if it had fired all over; model frame
+    Eigen::Vector2d drawn_from_px_{0, 0};
 
     const FiredMap* map_ = nullptr;
     SearchRange range_;

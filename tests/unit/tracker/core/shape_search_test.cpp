@@ -134,6 +134,21 @@ TEST(ShapeSearch, takes_no_noise_and_no_other_shape_for_it) {
     EXPECT_FALSE(search(arrow, fired(box, pose_of(150, 120, 0.3), 100, 2), anywhere()));
 }
 
+TEST(ShapeSearch, is_not_drawn_to_the_many_lines_of_something_else) {
+    const Shape arrow = test::arrow();
+    for (std::uint32_t seed = 0; seed < 6; ++seed) {
+        const Pose truth = pose_of(60 + 5 * seed, 60 + 5 * seed, 0.7 * seed);
+        auto events = fired(arrow, truth, 300, seed);
+        // A grating beside it: any contour lies on much of it.
+        for (std::uint16_t x = 160; x < 290; x = static_cast<std::uint16_t>(x + 5)) {
+            for (std::uint16_t y = 120; y < 230; ++y) events.push_back({0, x, y, 1});
+        }
+        const auto found = search(arrow, events, anywhere());
+        ASSERT_TRUE(found) << seed;
+        EXPECT_LT(test::rms_px(arrow, found->pose, truth), 3) << seed;
+    }
+}
+
 TEST(ShapeSearch, finds_the_same_in_slices_as_at_once) {
     const Shape arrow = test::arrow();
     const auto events = fired(arrow, pose_of(100, 90, 1), 500, 5);
