@@ -41,6 +41,10 @@ void apply(Qos& qos, const FlowQos& flow) {
     qos.durability().kind =
         flow.latched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
     qos.endpoint().history_memory_policy = flow.memory;
+    // Fast DDS would share the memory of a history with readers on the same host. A writer killed
+    // while it holds the lock in there takes its readers with it, by an exception that nobody can
+    // catch, and leaves its file in /dev/shm.
+    qos.data_sharing().off();
     // Keyed topics: at most this many objects or services at once.
     qos.resource_limits().max_instances = 1024;
     qos.resource_limits().max_samples_per_instance = flow.depth;

@@ -29,6 +29,8 @@ constexpr double near_it_px = 6;
 
 // Where the object is expected counts for so much of the contour.
 constexpr double seed_bonus = 0.05;
+constexpr double far_malus_of_check = 0.05;
+constexpr double far_malus = 0.15;
 
 // A pose of the coarse pass is at least this far from its surroundings.
 constexpr double least_z = 2;
@@ -179,7 +181,9 @@ void ShapeSearch::weigh(const Pose& pose, bool is_seed) {
     const Pose fit_pose = fitted(pose);
     const Fit fit = fit_of(fit_pose);
     const double far = (fit_pose.t_px - range_.around.t_px).norm() / range_.usual_distance_px;
-    double worth = fit.score + (is_seed ? seed_bonus : -0.05 * std::min(far * far, 4.0));
+    double worth = fit.score + (is_seed ? seed_bonus
+                                        : -(range_.is_check ? far_malus_of_check : far_malus) *
+                                              std::min(far * far, 4.0));
     bool is_sure = fit.score > least_score + chance_margin * fit.chance;
     if (!range_.is_check) {
         const double share = explained(fit_pose);

@@ -31,7 +31,11 @@ constexpr double any_log_scale = 0.27;
 constexpr double check_reach_px = 30;
 constexpr double check_angle_rad = 0.5;
 constexpr double uncertain_share = 0.1;  // of the way gone unseen
-constexpr double adrift_px = 150;        // after a gap between streams, the usual distance
+
+// After a gap between streams: the usual distance, and how much farther it is looked for as time
+// goes on. What looks the same and was far away is taken only when nothing is found near.
+constexpr double adrift_px = 150;
+constexpr double adrift_px_s = 300;
 
 // The events must speak against the pose for this long, less what they speak for it twice: models
 // taken from a real recording, and the first moments of slow objects among noise, do so for a
@@ -152,6 +156,7 @@ void Track::begin_stream() {
     last_event_t_us_ = 0;
     lose_grip(0);
     is_adrift_ = true;
+    adrift_since_us_ = -1;
 }
 
 void Track::remember_good(std::int64_t t_us) {
@@ -255,6 +260,10 @@ std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) c
     range.around = is_searching_ ? estimator_->pose() : good_[1].pose;
     if (!is_adrift_) range.around.t_px << geometry.width / 2.0, geometry.height / 2.0;
     range.reach_px = std::max(geometry.width, geometry.height);
+    if (is_adrift_) {
+        const double adrift_s = adrift_since_us_ < 0 ? 0 : seconds(t_us - adrift_since_us_);
+        range.reach_px = std::min(range.reach_px, adrift_px + adrift_px_s * adrift_s);
+    }
     range.angle_rad = std::numbers::pi;
     range.log_scale = has_fixed_scale() ? 0 : any_log_scale;
     range.usual_distance_px = is_adrift_ ? adrift_px : 1e6;
@@ -328,6 +337,7 @@ Pose Track::pose() const {
 }
 
 void Track::reach_time(std::int64_t t_us) {
+    if (adrift_since_us_ < 0) adrift_since_us_ = t_us;
     if (is_covered_) return;
     if (emerged_us_ >= 0 && seconds(t_us - emerged_us_) > tracker_.coast_s) give_up(t_us);
     if (t_us < trial_until_us_) return;

@@ -167,6 +167,7 @@ class Track {
     std::int32_t piece_ = -1;
     bool is_covered_ = false;
     bool is_adrift_ = false;  // since a new stream began: it may be anywhere
+    std::int64_t adrift_since_us_ = -1;
     bool is_searching_ = false;
     bool is_acquiring_ = false;
     bool is_fresh_ = true;         // since the restart no event was taken
