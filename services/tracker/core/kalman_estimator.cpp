@@ -42,7 +42,7 @@ double normal_density(double r2, double per_variance) {
 
 template <TransformKind kind>
 KalmanEstimator<kind>::KalmanEstimator(const Contour& contour, const ObjectParameters& parameters)
-    : contour_(contour), parameters_(parameters) {
+    : contour_(contour), parameters_(parameters), bend_(contour_) {
     restart({}, {});
 }
 
@@ -61,6 +61,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     clutter_.restart();
     stands_still_ = false;
     backlash_.restart(contour_.pieces().pieces().size());
+    bend_.restart();
     noise_gain_ = 1;
     most_pose_sigma_px_ = most_pose_sigma_px;
     t_us_ = -1;
@@ -153,6 +154,7 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     // It is told to move until so many events that should have come have not.
     const double expected_hz = clock_.events_per_px(length_px) * own_px_s;
     const double missed = dt_s * expected_hz;
+    if constexpr (is_bent) bend_.predict(speed_px_s_ * dt_s);
     filter_.predict(dt_s, missed > silent_events ? silent_events / expected_hz : dt_s, noise);
 
     // Silence means standing still; less so where what is hidden, and whose the events beside it
@@ -248,7 +250,12 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
         sampled_for_area_ = area;
     }
     clutter_.reach(event.t_us);
-    const Place place = nearest_to(Eigen::Vector2d(event.x, event.y) - pose.t_px);
+    Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - pose.t_px;
+    if constexpr (is_bent) {
+        // To where it would be, were the model not bent.
+        if (!bend_.is_flat()) q -= pose.a * bend_.shift(pose.a.inverse() * q);
+    }
+    const Place place = nearest_to(q);
     if (place.piece < 0) return {};
     const double past_end2 = place.squared_px - place.r_px * place.r_px;
     if (past_end2 > Clutter::overshoot_px * Clutter::overshoot_px) return {};
@@ -267,6 +274,9 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     if (distance_px > parameters_.gate_px) return {};
     clutter_.pass_near();
     measured_.row = filter_.row(j, lead, h);
+    if constexpr (is_bent) {
+        measured_.along_bend = bend_.along(pose.a.transpose() * place.n, place.model_px);
+    }
     measured_.r_px = r_px;
     measured_.piece = place.piece;
     measured_.lead = lead;
@@ -299,6 +309,9 @@ bool KalmanEstimator<kind>::take(double weight) {
         likelihood * near_noise * far_noise /
         (measured_.near_likelihood * far_noise + measured_.far_likelihood * near_noise);
     filter_.correct(measured_.row, r, measured_.row.h_p_h + noise, share);
+    if constexpr (is_bent) {
+        bend_.correct(measured_.along_bend, r, measured_.row.h_p_h + noise, share);
+    }
     if (lead_prior_.count(measured_.lead, share)) {
         filter_.tell_leads(lead_prior_.weights(), lead_prior_.held_px(), LeadPrior::held_sigma_px);
         filter_.tell_leads(lead_prior_.apart_weights(), lead_prior_.apart_px(),

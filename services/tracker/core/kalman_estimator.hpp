@@ -2,6 +2,7 @@
 #pragma once
 
 #include "services/tracker/core/backlash.hpp"
+#include "services/tracker/core/bend.hpp"
 #include "services/tracker/core/clutter.hpp"
 #include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/event_clock.hpp"
@@ -12,7 +13,8 @@ namespace pursuit::tracker {
 
 /// The filter: measures the signed distance of each event along the contour's normal, less the lead
 /// that events have on a moving edge (LeadPrior, Backlash). How fast the object can turn away is
-/// told by the event clock, how much of what comes is the object's by the measured clutter.
+/// told by the event clock, how much of what comes is the object's by the measured clutter. What a
+/// full affine transform leaves of a perspective view, a Bend explains.
 template <TransformKind kind>
 class KalmanEstimator : public Estimator {
  public:
@@ -48,6 +50,7 @@ class KalmanEstimator : public Estimator {
     // An isometry or a similarity: what is nearest in the image is so in the model frame.
     static constexpr bool keeps_angles =
         kind == TransformKind::isometry || kind == TransformKind::similarity;
+    static constexpr bool is_bent = kind == TransformKind::full_affine;
 
     void predict_to(std::int64_t t_us);
     void measure_size();
@@ -76,6 +79,7 @@ class KalmanEstimator : public Estimator {
         double near_likelihood;
         double far_likelihood;
         double clutter;
+        Eigen::Vector2d along_bend;
     };
 
     /// How large the contour is in the image.
@@ -93,6 +97,7 @@ class KalmanEstimator : public Estimator {
     EventClock clock_;
     Clutter clutter_;
     Backlash backlash_;
+    Bend bend_;
     Measurement measured_{};
     Pose way_begin_;
     bool stands_still_ = false;  // among noise
