@@ -52,6 +52,8 @@ void CoreThread::run() {
             reply_(id, session_->answer(request));
         }
         if (session_->revision() != stored_revision_) post_state();
+        // Not only when there is nothing else to do: who asks wants to know how far behind it is.
+        serve_wishes();
     }
 }
 

@@ -203,6 +203,7 @@ SessionFigures TrackerSession::figures() const {
     if (figures.last_t_us >= 0) {
         figures.last_host_time_ns = publisher_.host_time_ns(figures.last_t_us);
     }
+    figures.taken_host_time_ns = clock_.realtime_ns();
     figures.stream_open = follower_.is_open();
     figures.calls_waiting = static_cast<std::uint32_t>(tracker_.waiting());
     figures.objects = static_cast<std::uint32_t>(tracker.object_names().size());

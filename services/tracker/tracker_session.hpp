@@ -30,9 +30,10 @@ struct SessionFigures {
     std::uint64_t write_failures = 0;
     std::uint64_t stream_id = 0;
     std::int64_t last_t_us = -1;
-    std::int64_t last_host_time_ns = 0;  ///< Of last_t_us; 0 before the first event.
-    bool stream_open = false;            ///< Begun and not ended.
-    std::uint32_t calls_waiting = 0;     ///< For their time.
+    std::int64_t last_host_time_ns = 0;   ///< Of last_t_us; 0 before the first event.
+    std::int64_t taken_host_time_ns = 0;  ///< When these figures were.
+    bool stream_open = false;             ///< Begun and not ended.
+    std::uint32_t calls_waiting = 0;      ///< For their time.
     std::uint32_t objects = 0;
     std::uint32_t objects_tracking = 0;
     std::uint32_t objects_lost = 0;

@@ -68,7 +68,8 @@ v1::TrackerStatus tracker_status(const ServiceIdentity& identity, const SessionF
     status.objects_lost(figures.objects_lost);
     status.sensor_silent(is_silent(figures, intake, clock.steady_ns()));
     if (figures.last_host_time_ns != 0) {
-        status.lag_us(static_cast<double>(clock.realtime_ns() - figures.last_host_time_ns) * 1e-3);
+        status.lag_us(static_cast<double>(figures.taken_host_time_ns - figures.last_host_time_ns) *
+                      1e-3);
     }
     status.busy_fraction(figures.busy_fraction);
     status.latency(figures.latency);

@@ -13,7 +13,7 @@ import programs  # noqa: E402
 from scores import Scores  # noqa: E402
 
 # In the order of the paper; each a module of figures/ with run(settings) -> Page.
-GROUPS = ("rotating_star", "points_and_rate", "affine", "road", "strategies", "moving_camera",
+GROUPS = ("rotating_star", "live", "points_and_rate", "affine", "road", "strategies", "moving_camera",
           "every_scene", "disc_sensors", "starts_and_gaps", "recorded")
 
 README = os.path.join(programs.HERE, "README.md")

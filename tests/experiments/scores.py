@@ -103,6 +103,11 @@ class Scores:
             if d1:
                 arguments += ["--events", files.events]
             text, _ = run(arguments)
+            result = {"wall_s": wall_s, "events": os.path.getsize(files.events) // 8}
+            status = os.path.join(folder, "status.json")
+            if os.path.exists(status):
+                with open(status) as file:
+                    result["status"] = json.load(file)
         objects = json.loads(text)
         for row in files.objects:
             # A shape that was searched for may be found turned by one of its own turns.
@@ -110,8 +115,7 @@ class Scores:
             if row["mode"] == "search" and score and "lost_symmetric" in score:
                 score.update(lost=score["lost_symmetric"], E=score["E_symmetric"],
                              lies=score["lies_symmetric"])
-        return {"wall_s": wall_s, "objects": objects,
-                "events": os.path.getsize(files.events) // 8}
+        return {"objects": objects, **result}
 
 
 def objects_of(results, cases, name=None):

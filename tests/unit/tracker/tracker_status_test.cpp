@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/tracker_status.hpp"
+
+#include <gtest/gtest.h>
+
+namespace pursuit::tracker {
+namespace {
+
+v1::TrackerStatus status_of(const SessionFigures& figures, ManualClock& clock) {
+    return tracker_status({}, figures, {}, IntakeCounters{}, clock);
+}
+
+TEST(TrackerStatus, tells_how_far_behind_the_tracker_was_when_it_was_asked) {
+    ManualClock clock;
+    SessionFigures figures;
+    figures.last_t_us = 5;
+    figures.last_host_time_ns = 1'000'000;
+    figures.taken_host_time_ns = 3'500'000;
+    EXPECT_EQ(status_of(figures, clock).lag_us(), 2'500);
+    clock.advance(50'000'000);  // until it is told
+    EXPECT_EQ(status_of(figures, clock).lag_us(), 2'500);
+}
+
+TEST(TrackerStatus, before_the_first_event_has_no_lag) {
+    ManualClock clock;
+    SessionFigures figures;
+    figures.taken_host_time_ns = 3'500'000;
+    EXPECT_EQ(status_of(figures, clock).lag_us(), 0);
+}
+
+TEST(TrackerStatus, of_an_open_stream_without_packets_for_100_ms_is_a_fault) {
+    SessionFigures figures;
+    figures.stream_open = true;
+    IntakeCounters intake;
+    intake.last_packet_steady_ns = 1;
+    EXPECT_FALSE(is_silent(figures, intake, 100'000'001));
+    EXPECT_TRUE(is_silent(figures, intake, 100'000'002));
+    figures.stream_open = false;
+    EXPECT_FALSE(is_silent(figures, intake, 100'000'002));
+}
+
+}  // namespace
+}  // namespace pursuit::tracker
