@@ -82,7 +82,13 @@ class CornerMeasure {
 
 }  // namespace
 
-std::vector<EdgePoint> edge_points(std::span<const Eigen::Vector2f> events_px) {
+bool ranks_before(const EdgePoint& l, const EdgePoint& r) {
+    return std::tuple(-l.density, l.position_px.y(), l.position_px.x(), l.polarity) <
+           std::tuple(-r.density, r.position_px.y(), r.position_px.x(), r.polarity);
+}
+
+std::vector<EdgePoint> edge_points(std::span<const Eigen::Vector2f> events_px,
+                                   std::uint8_t polarity) {
     if (events_px.empty()) return {};
     auto kept = without_isolated(events_px);
     if (kept.empty()) return {};
@@ -112,13 +118,10 @@ std::vector<EdgePoint> edge_points(std::span<const Eigen::Vector2f> events_px) {
                 });
                 position = sum / density;
             }
-            points.push_back({position, density, corner.at(position)});
+            points.push_back({position, density, corner.at(position), polarity});
         }
     }
-    std::sort(points.begin(), points.end(), [](const EdgePoint& l, const EdgePoint& r) {
-        return std::tuple(-l.density, l.position_px.y(), l.position_px.x()) <
-               std::tuple(-r.density, r.position_px.y(), r.position_px.x());
-    });
+    std::sort(points.begin(), points.end(), ranks_before);
     return points;
 }
 

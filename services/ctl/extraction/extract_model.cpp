@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/ctl/extraction/extract_model.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <utility>
 #include <vector>
@@ -62,6 +64,26 @@ Result<void> check_task(const Extraction& task, Geometry geometry) {
     return tracker::check_name(task.name);
 }
 
+/// Links between points of one polarity, told by events of that polarity.
+std::vector<tracker::Edge> links_of(const std::vector<EdgePoint>& points,
+                                    const std::array<std::vector<Eigen::Vector2f>, 2>& still_px) {
+    std::vector<tracker::Edge> links;
+    for (std::size_t polarity = 0; polarity < still_px.size(); ++polarity) {
+        std::vector<std::uint16_t> index;
+        std::vector<Eigen::Vector2f> points_px;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (points[i].polarity != polarity) continue;
+            index.push_back(static_cast<std::uint16_t>(i));
+            points_px.push_back(points[i].position_px);
+        }
+        for (const auto& link : contour_links(points_px, still_px[polarity])) {
+            if (links.size() == tracker::max_shape_edges) return links;
+            links.push_back({index[link.from], index[link.to]});
+        }
+    }
+    return links;
+}
+
 std::string remark_of(const ExtractedModel& extracted, const Extraction& task) {
     char text[160];
     std::snprintf(text, sizeof text,
@@ -84,20 +106,26 @@ Result<ExtractedModel> extract_model(sensor::EventReader& recording, const Extra
     extracted.events = window->size();
     const auto motion_px = dominant_motion_px(*window);
     extracted.velocity_px_s = motion_px * (1e6F / static_cast<float>(task.window_us));
-    std::vector<Eigen::Vector2f> still_px;
+    // An edge makes events of one polarity: what runs close beside it is told apart by the other.
+    std::array<std::vector<Eigen::Vector2f>, 2> still_px;
     for (const auto& event : *window) {
-        still_px.push_back(event.position_px - event.phase * motion_px);
+        still_px[event.polarity & 1].push_back(event.position_px - event.phase * motion_px);
     }
+    std::vector<EdgePoint> edges = edge_points(still_px[0], 0);
+    const std::vector<EdgePoint> on = edge_points(still_px[1], 1);
+    edges.insert(edges.end(), on.begin(), on.end());
+    std::sort(edges.begin(), edges.end(), ranks_before);
+    const std::vector<EdgePoint> chosen = thin(edges, task.points);
 
     auto& model = extracted.model;
     model.shape.name = task.name;
-    model.shape.points_px = thin(edge_points(still_px), task.points);
+    for (const EdgePoint& point : chosen) model.shape.points_px.push_back(point.position_px);
     if (model.shape.points_px.size() < tracker::min_shape_points) {
         return fail("only " + std::to_string(window->size()) +
                     " events moved there then: too few for a model");
     }
     if (auto ok = tracker::check(model.shape); !ok) return tl::unexpected(ok.error());
-    if (task.links) model.shape.edges = contour_links(model.shape.points_px, still_px);
+    if (task.links) model.shape.edges = links_of(chosen, still_px);
     model.origin_px = tracker::centre_of_gravity_px(model.shape);
     model.shape = tracker::centred(std::move(model.shape));
     model.comment = remark_of(extracted, task);

@@ -9,9 +9,10 @@
 
 namespace pursuit::ctl {
 
-/// `most` of the points (in their order of rank), evenly spread: no two nearer than a distance that
-/// is chosen as small as the number allows. Fewer only where less than that are 1 px apart.
-/// Corners, the local maxima of EdgePoint::corner, are taken first, at most a quarter of `most`.
-std::vector<Eigen::Vector2f> thin(std::span<const EdgePoint> points, std::size_t most);
+/// `most` of the points (in their order of rank), evenly spread: no two of one polarity nearer
+/// than a distance that is chosen as small as the number allows. Fewer only where less than that
+/// are 1 px apart. Corners, the local maxima of EdgePoint::corner, are taken first, at most a
+/// quarter of `most`.
+std::vector<EdgePoint> thin(std::span<const EdgePoint> points, std::size_t most);
 
 }  // namespace pursuit::ctl

@@ -122,6 +122,24 @@ TEST(ExtractModel, gives_the_same_model_for_events_of_equal_time_in_any_order) {
     EXPECT_EQ(a->model.origin_px, b->model.origin_px);
 }
 
+TEST(ExtractModel, tells_a_bright_edge_from_a_dark_one_close_beside_it) {
+    std::vector<Event> events;
+    for (int i = 0; i < 3000; ++i) {
+        const auto y = static_cast<std::uint16_t>(30 + i * 7 % 61);
+        events.push_back({i * 6, static_cast<std::uint16_t>(i % 2 == 0 ? 50 : 52), y,
+                          static_cast<std::uint8_t>(i % 2)});
+    }
+    EventList recording(events);
+    const auto extracted = extract_model(recording, task_of(40));
+    ASSERT_TRUE(extracted) << extracted.error().message;
+    const auto& shape = extracted->model.shape;
+    EXPECT_GE(shape.edges.size(), 30U);
+    for (const auto& edge : shape.edges) {
+        const auto link = shape.points_px[edge.to] - shape.points_px[edge.from];
+        EXPECT_LT(std::abs(link.x()), 0.5F);
+    }
+}
+
 TEST(ExtractModel, takes_only_what_lies_in_window_and_rectangle) {
     EventList recording(moving_square(0, 3));
     auto task = task_of(50);
@@ -173,6 +191,22 @@ TEST(DominantMotion, of_what_stands_still_or_only_flickers_is_zero) {
     EXPECT_EQ(dominant_motion_px({}), Eigen::Vector2f::Zero());
 }
 
+TEST(DominantMotion, is_found_to_a_tenth_of_a_pixel) {
+    for (const Eigen::Vector2f& motion_px : {Eigen::Vector2f(4.4F, -1.3F), {-2.7F, 3.6F}}) {
+        std::mt19937 random(5);
+        const auto uniform = [&] { return static_cast<float>(random()) / 4294967296.0F; };
+        std::vector<MovedEvent> events;
+        for (int i = 0; i < 6000; ++i) {  // a ring: it has edges of every direction
+            const float phase = uniform() - 0.5F;
+            const float angle = 6.2831853F * uniform();
+            const Eigen::Vector2f at = 25 * Eigen::Vector2f(std::cos(angle), std::sin(angle)) +
+                                       Eigen::Vector2f(60, 60) + phase * motion_px;
+            events.push_back({at.array().round(), phase, static_cast<std::uint8_t>(random() % 2)});
+        }
+        EXPECT_LT((dominant_motion_px(events) - motion_px).norm(), 0.15F) << motion_px.transpose();
+    }
+}
+
 TEST(Thin, keeps_every_point_where_they_are_few_and_far_apart) {
     const std::vector<EdgePoint> points = {{{0, 0}, 3, 0}, {{5, 0}, 2, 0}, {{0, 5}, 1, 0}};
     EXPECT_EQ(thin(points, 10).size(), 3U);
@@ -196,14 +230,15 @@ TEST(Thin, gives_the_number_with_even_spacing) {
         float nearest_px = 1e9F;
         for (std::size_t i = 0; i < chosen.size(); ++i) {
             for (std::size_t j = 0; j < i; ++j) {
-                nearest_px = std::min(nearest_px, (chosen[i] - chosen[j]).norm());
+                nearest_px =
+                    std::min(nearest_px, (chosen[i].position_px - chosen[j].position_px).norm());
             }
         }
         float widest_gap_px = 0;
         for (const auto& point : points) {
             float gap_px = 1e9F;
             for (const auto& other : chosen) {
-                gap_px = std::min(gap_px, (point.position_px - other).norm());
+                gap_px = std::min(gap_px, (point.position_px - other.position_px).norm());
             }
             widest_gap_px = std::max(widest_gap_px, gap_px);
         }
