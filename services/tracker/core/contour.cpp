@@ -86,6 +86,7 @@ Contour::Contour(const Shape& shape) {
     }
     is_outline_ = !shape.edges.empty() &&
                   std::all_of(touching.begin(), touching.end(), [](int n) { return n == 2; });
+    is_of_events_ = !shape.edges.empty() && !is_outline_;
     const std::vector<Edge> edges =
         shape.edges.empty() ? inferred_edges(shape.points_px) : shape.edges;
     std::vector<Piece> pieces;

@@ -31,6 +31,9 @@ class Contour {
 
     /// Whether the shape came with closed outlines; edges out of a recording run anyhow.
     [[nodiscard]] bool is_outline() const { return is_outline_; }
+    /// Whether it came with edges that leave points out or ends loose: told by the events of a
+    /// recording, and so lying where events come from.
+    [[nodiscard]] bool is_of_events() const { return is_of_events_; }
     [[nodiscard]] double length_px() const { return length_px_; }      ///< Of all pieces, model px.
     [[nodiscard]] double gyration_px() const { return gyration_px_; }  ///< Radius of gyration.
     [[nodiscard]] double radius_px() const { return radius_px_; }      ///< Of the farthest point.
@@ -57,6 +60,7 @@ class Contour {
     static void build_for(CandidateGrid& grid, const Eigen::Matrix2d& a, double reach_px);
 
     bool is_outline_ = false;
+    bool is_of_events_ = false;
     double length_px_ = 0;
     double gyration_px_ = 0;
     double radius_px_ = 0;

@@ -14,6 +14,15 @@ constexpr double subsequent_noise_px = 0.6;  // σ of those that follow
 constexpr double tail_px2 = 1.5 * 1.5;       // variance added for the events that stray
 constexpr double tail_share = 0.2;
 constexpr double least_share = 0.05;
+// Where events lie farther from the contour than the noise explains, the model is another than the
+// object, as one taken from a recording of something that turns in depth: a sharp look would hold
+// on to what is next to it. From this gain of the noise on the tail has more, and is wider.
+constexpr double misfit_gain = 2;
+constexpr double tail_share_of_misfit = 0.1;
+constexpr double most_tail_share = 0.5;
+constexpr double tail_of_misfit = 0.5;
+constexpr double least_noise_gain = 0.2;
+constexpr double most_noise_gain = 16;
 constexpr double same_edge_px = 8;  // a pixel's events within this way belong to one edge
 constexpr double least_lead_px = -1.2;
 constexpr double most_lead_px = 1.6;
@@ -263,7 +272,10 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     const Step j = M::along(place.n, place.arm_px, pose.a, place.model_px);
     const Segment& segment = contour_.pieces().segment(place.piece);
     const Eigen::Vector2d middle(segment.ax + segment.dx / 2, segment.ay + segment.dy / 2);
-    const double h = backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
+    // A contour that lies where events came from has their leads in it.
+    const double h = contour_.is_of_events()
+                         ? 0
+                         : backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
     const bool subsequent = static_cast<double>(since_same_us) * 1e-6 * speed_px_s_ < same_edge_px;
     const int lead = 2 * (event.polarity & 1) + (subsequent ? 1 : 0);
     const double r_px = place.r_px - filter_.lead_px()(lead) * h;
@@ -285,10 +297,14 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
 
     const double near_variance = measured_.row.h_p_h + measured_.noise_px2;
     measured_.per_near_variance = 1 / near_variance;
+    const double misfit = std::max(noise_gain_ - misfit_gain, 0.0);
+    const double share_of_tail =
+        std::min(tail_share + tail_share_of_misfit * misfit, most_tail_share);
+    measured_.tail_px2 = tail_px2 * (1 + tail_of_misfit * misfit);
     measured_.near_likelihood =
-        (1 - tail_share) * normal_density(r_px * r_px, measured_.per_near_variance);
+        (1 - share_of_tail) * normal_density(r_px * r_px, measured_.per_near_variance);
     measured_.far_likelihood =
-        tail_share * normal_density(r_px * r_px, 1 / (near_variance + tail_px2));
+        share_of_tail * normal_density(r_px * r_px, 1 / (near_variance + measured_.tail_px2));
     measured_.clutter = clutter_.density(place.piece, r_px);
     return {distance_px, measured_.clutter, distance_px, place.piece};
 }
@@ -304,7 +320,7 @@ bool KalmanEstimator<kind>::take(double weight) {
 
     // The mean of both kinds' information.
     const double near_noise = measured_.noise_px2;
-    const double far_noise = near_noise + tail_px2;
+    const double far_noise = near_noise + measured_.tail_px2;
     const double noise =
         likelihood * near_noise * far_noise /
         (measured_.near_likelihood * far_noise + measured_.far_likelihood * near_noise);
@@ -320,7 +336,8 @@ bool KalmanEstimator<kind>::take(double weight) {
     filter_.limit_leads(least_lead_px, most_lead_px);
     if constexpr (kind != TransformKind::isometry) measure_size();
     const double surprise = std::min(r * r * measured_.per_near_variance, 9.0) / 1.3 - 1;
-    noise_gain_ = std::clamp(noise_gain_ * (1 + 0.001 * share * surprise), 0.2, 4.0);
+    noise_gain_ =
+        std::clamp(noise_gain_ * (1 + 0.001 * share * surprise), least_noise_gain, most_noise_gain);
     residual_px_ += 0.01 * share * (std::abs(r) - residual_px_);
 
     most_pose_sigma_px_ =

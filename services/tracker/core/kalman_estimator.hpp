@@ -75,6 +75,7 @@ class KalmanEstimator : public Estimator {
         std::int32_t piece;
         int lead;
         double noise_px2;
+        double tail_px2;
         double per_near_variance;
         double near_likelihood;
         double far_likelihood;

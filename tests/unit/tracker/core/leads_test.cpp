@@ -66,6 +66,48 @@ TEST(LeadPrior, holds_on_and_off_apart_by_the_means_over_their_events) {
     EXPECT_NEAR(prior.apart_weights().dot(leads_px), on_px - off_px, 0.01);
 }
 
+Shape square() { return test::polygon("square", {{-20, -20}, {20, -20}, {20, 20}, {-20, 20}}); }
+
+/// How far ahead of where its events come from a square is said to be, px, that goes right and
+/// down.
+double ahead_of_its_events_px(const Shape& shape) {
+    const auto where = [](double t_us) {
+        return pose_of(60 + 120e-6 * t_us, 60 + 90e-6 * t_us, 0, 1, 1);
+    };
+    const auto events =
+        test::outline_events(square(), where, 0, 1'000'000, 240, 0, test::small_sensor, 3);
+    Tracker tracker = Tracker::create({}).value();
+    tracker.begin_stream(test::small_sensor, 1);
+    Registration registration;
+    registration.shape = shape;
+    registration.estimator = EstimatorKind::kalman;
+    registration.start.pose = where(0);
+    tracker.register_object(registration).value();
+    test::Poses poses;
+    tracker.process(events, poses);
+    double sum_px = 0;
+    int count = 0;
+    for (const auto& row : poses.rows) {
+        if (row.record.t_us < 200'000) continue;
+        const Pose truth = where(static_cast<double>(row.record.t_us));
+        sum_px += (row.record.pose.t_px - truth.t_px).dot(Eigen::Vector2d(0.8, 0.6));
+        ++count;
+    }
+    return sum_px / count;
+}
+
+TEST(Leads, are_none_of_a_contour_that_was_told_by_events_itself) {
+    const Shape outline = square();
+    Shape of_events = outline;
+    std::erase_if(of_events.edges, [](const Edge& edge) { return edge.from % 4 == 0; });
+    EXPECT_FALSE(Contour(outline).is_of_events());
+    EXPECT_TRUE(Contour(of_events).is_of_events());
+    const double ahead_px = ahead_of_its_events_px(of_events);
+    EXPECT_NEAR(ahead_px, 0, 0.1);
+    // What was drawn is expected behind the first events of a pixel.
+    EXPECT_LT(ahead_of_its_events_px(outline), ahead_px - 0.05);
+}
+
 /// Events a second on the contour and beside it, drawn at random, for some time.
 void see(Clutter& clutter, double near_hz, double left_hz, double right_hz, double seconds) {
     static std::mt19937 random(7);
