@@ -94,6 +94,7 @@ void Track::make_for(const RegisteredObject& object) {
     cover_ = std::make_unique<Cover>(contour_);
     outline_ = Outline(contour_);
     silhouette_ = Silhouette(contour_);
+    vanishing_ = Vanishing(silhouette_, contour_.radius_px());
 }
 
 void Track::replace(const RegisteredObject& object) {
@@ -137,6 +138,7 @@ void Track::restart(const RegisteredObject& object) {
 }
 
 void Track::begin_stream() {
+    vanishing_.restart();
     heard_us_ = -1;
     is_silent_ = false;
     if (doubt_.is_open()) begin_doubt(0, start_confirmations, 0);
@@ -194,6 +196,8 @@ void Track::weigh(std::int64_t t_us) {
 }
 
 void Track::acquire(std::int64_t t_us) {
+    // What was found a moment after all of it had changed has yet to show that it is there.
+    if (!vanishing_.is_suspected()) vanishing_.restart();
     is_acquiring_ = false;
     is_searching_ = false;
     is_adrift_ = false;
@@ -307,6 +311,7 @@ void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocit
         estimator_->restart(moved, velocity);
     }
     for (Coast& good : good_) good = {t_us, moved, velocity};
+    vanishing_.restart();
     // What came before the move is of the same object.
     begin_doubt(t_us, found_confirmations, doubt_.since_us());
 }
@@ -339,6 +344,12 @@ Pose Track::pose() const {
 void Track::reach_time(std::int64_t t_us) {
     if (adrift_since_us_ < 0) adrift_since_us_ = t_us;
     if (is_covered_) return;
+    if (vanishing_.is_gone(t_us)) {
+        if (!is_acquiring_) lose_grip(t_us);
+        does_not_fit_ = true;
+        emerged_us_ = -1;
+        vanishing_.restart();
+    }
     if (emerged_us_ >= 0 && seconds(t_us - emerged_us_) > tracker_.coast_s) give_up(t_us);
     if (t_us < trial_until_us_) return;
     if (is_searching_) is_acquiring_ = false;
@@ -359,10 +370,18 @@ Reach Track::reach(std::int64_t t_us) const {
 Approach Track::approach(const Event& event, std::int64_t since_same_us) {
     if (is_covered_ || (is_searching_ && !is_acquiring_)) return {};
     if (is_acquiring_) return acquisition_->approach(event);
+    if (vanishing_.can_tell()) watch_inside(event, since_same_us);
     const Approach near = estimator_->approach(event, since_same_us);
     distance_px_ = near.contour_px;
     piece_ = near.piece;
     return near;
+}
+
+void Track::watch_inside(const Event& event, std::int64_t since_same_us) {
+    // Where another covers it in part, what comes from inside may be the other's.
+    if (is_partly_hidden() || !(parameters_.let_go_sharpness > 0)) return;
+    vanishing_.see(event, estimator_->pose(), since_same_us);
+    if (vanishing_.is_suspected()) doubted_us_ = event.t_us;
 }
 
 bool Track::take(const Event& event, double weight) {
@@ -375,6 +394,7 @@ bool Track::take(const Event& event, double weight) {
         is_silent_ = false;
         health_.count(distance_px_, parameters_.gate_px, event.t_us,
                       estimator_->sees_noise_alone());
+        vanishing_.count_own(event.t_us, distance_px_ < parameters_.gate_px / 4);
         weigh(event.t_us);
         if (parameters_.let_go_sharpness > 0 && against_us_ > let_go_after_us) {
             lose_grip(event.t_us);
@@ -496,6 +516,7 @@ void Track::cover(std::int64_t t_us) {
     const auto slow = slow_.per_s();
     if (!slow.isZero()) covered_.velocity = {slow(0), slow(1), slow(2), 0, 0};
     is_covered_ = true;
+    vanishing_.restart();
     grip_lost_us_ = t_us;
     against_us_ = 0;
 }
@@ -532,6 +553,7 @@ TrackState Track::state_at(std::int64_t t_us) const {
     if (is_searching_) return TrackState::searching;
     if (!is_acquiring_ && !is_covered_ && estimator_->is_swamped()) return TrackState::lost;
     if (is_covered_ || (emerged_us_ >= 0 && !is_acquiring_)) return TrackState::occluded;
+    if (vanishing_.is_gone(t_us)) return TrackState::lost;
     if (!is_acquiring_) return TrackState::tracking;
     // Hidden by what is not tracked, its events are missing; what does not fit is something else.
     if (does_not_fit_) return TrackState::lost;
@@ -541,7 +563,7 @@ TrackState Track::state_at(std::int64_t t_us) const {
 
 double Track::confidence_at(std::int64_t t_us) const {
     if (is_searching_ || is_acquiring_ || is_covered_ || emerged_us_ >= 0) return 0;
-    if (estimator_->is_swamped()) return 0;
+    if (estimator_->is_swamped() || vanishing_.is_suspected()) return 0;
     const double sharp = std::clamp((health_.sharpness() - 0.25) / 0.4, 0.0, 1.0);
     const double usual = std::clamp((health_.relative_sharpness() - 0.6) / 0.25, 0.0, 1.0);
     const double covered = std::clamp((cover_->share() - 0.4) / 0.2, 0.0, 1.0);

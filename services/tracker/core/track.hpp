@@ -18,6 +18,7 @@
 #include "services/tracker/core/shape_search.hpp"
 #include "services/tracker/core/silhouette.hpp"
 #include "services/tracker/core/slope.hpp"
+#include "services/tracker/core/vanishing.hpp"
 
 namespace pursuit::tracker {
 
@@ -31,7 +32,8 @@ namespace pursuit::tracker {
 /// coasts on its velocity and the acquisition has the events, from where the coast is, again and
 /// again; LOST says that coasting went on too long, or at once that events come as before and do
 /// not fit; the acquisition still goes on. No events at all are no mismatch: an object that stands
-/// still stays TRACKING, with falling confidence.
+/// still stays TRACKING, with falling confidence. One that is taken away is LOST: all that it
+/// covered changes as it goes.
 ///
 /// An object that other objects cover, all but a fifth of what its motion shows of it, is OCCLUDED:
 /// it takes no events and goes on at its velocity of the last second until enough of it shows. Then
@@ -131,6 +133,8 @@ class Track {
     /// Whether the events, now included, speak against the pose.
     void weigh(std::int64_t t_us);
     void lose_grip(std::int64_t t_us);
+    /// An event near the object: whether all of it fires at once.
+    void watch_inside(const Event& event, std::int64_t since_same_us);
     void acquire(std::int64_t t_us);
     void cover(std::int64_t t_us);
     void uncover(std::int64_t t_us);
@@ -156,6 +160,7 @@ class Track {
     Contour contour_;
     Outline outline_;
     Silhouette silhouette_;
+    Vanishing vanishing_;
     Slope<3> slow_;  // x, y, θ
     double slow_theta_rad_ = 0;
     double events_per_px2_ = 2;  // ρ: of contour length times the way across it

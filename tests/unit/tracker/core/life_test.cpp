@@ -4,6 +4,7 @@
 #include "services/tracker/core/clutter.hpp"
 #include "services/tracker/core/cover.hpp"
 #include "services/tracker/core/health.hpp"
+#include "services/tracker/core/silhouette.hpp"
 #include "services/tracker/core/tracker.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
 
@@ -89,6 +90,62 @@ TEST(Life, lets_go_within_100_ms_of_an_object_that_is_replaced) {
         }
     }
     EXPECT_EQ(last(poses).state, TrackState::lost);
+}
+
+/// Every place that the arrow covers fires, within a ms from t_us.
+std::vector<Event> arrow_goes(const Pose& at, std::int64_t t_us) {
+    const Silhouette silhouette{Contour(arrow())};
+    std::vector<Event> events;
+    for (std::uint16_t y = 0; y < small_sensor.height; ++y) {
+        for (std::uint16_t x = 0; x < small_sensor.width; ++x) {
+            const Eigen::Vector2d q = Eigen::Vector2d(x, y) - at.t_px;
+            if (silhouette.depth_px(at.a.transpose() * q) < 0) continue;
+            events.push_back({t_us + (x * 7919 + y * 104729) % 1000, x, y, 1});
+        }
+    }
+    std::stable_sort(events.begin(), events.end(),
+                     [](const Event& a, const Event& b) { return a.t_us < b.t_us; });
+    return events;
+}
+
+TEST(Life, says_within_100_ms_that_an_object_is_gone_though_no_event_comes_any_more) {
+    for (const std::int64_t still_us : {0, 300'000}) {
+        const std::int64_t gone_us = 500'000 + still_us;
+        const auto truth = [](double t_us) { return swinging(std::min(t_us, 500'000.0)); };
+        auto events = outline_events(arrow(), truth, 0, 500'000, 60, 5, small_sensor, 1);
+        const auto last_of_it = arrow_goes(truth(5e5), gone_us);
+        events.insert(events.end(), last_of_it.begin(), last_of_it.end());
+        Tracker tracker = that_follows_an_arrow(truth(0));
+        Poses poses;
+        tracker.process(events, poses);
+        tracker.advance(3'000'000, poses);
+        for (const auto& row : poses.rows) {
+            const PoseRecord& record = row.record;
+            if (record.t_us < gone_us) {
+                EXPECT_EQ(record.state, TrackState::tracking) << record.t_us;
+            } else if (record.t_us > gone_us + 2'000) {
+                EXPECT_EQ(record.confidence, 0) << record.t_us;
+            }
+            if (record.t_us > gone_us + 100'000) {
+                ASSERT_EQ(record.state, TrackState::lost) << record.t_us;
+            }
+        }
+    }
+}
+
+TEST(Life, finds_an_object_that_only_seemed_to_be_gone) {
+    auto events = outline_events(arrow(), swinging, 0, 500'000, 60, 5, small_sensor, 1);
+    const auto flash = arrow_goes(swinging(5e5), 500'000);
+    events.insert(events.end(), flash.begin(), flash.end());
+    // It stands where it was for a while, and goes on.
+    const auto truth = [](double t_us) { return swinging(t_us - 200'000); };
+    const auto after = outline_events(arrow(), truth, 700'000, 1'700'000, 60, 5, small_sensor, 2);
+    events.insert(events.end(), after.begin(), after.end());
+    Tracker tracker = that_follows_an_arrow(swinging(0));
+    Poses poses;
+    tracker.process(events, poses);
+    EXPECT_EQ(last(poses).state, TrackState::tracking);
+    EXPECT_LT(rms_px(arrow(), last(poses).pose, truth(1.7e6)), 1);
 }
 
 TEST(Life, goes_on_after_a_gap_in_the_stream) {

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "services/common/event.hpp"
+#include "services/tracker/core/pose.hpp"
+#include "services/tracker/core/silhouette.hpp"
+
+namespace pursuit::tracker {
+
+/// Whether the object is gone. What stands still makes no events, nor does what is not there; but
+/// at the instant at which a shape is taken away or another is put in its place, all that it
+/// covered changes at once: events come from all over its inside within a few ms, where else few
+/// come, and then its contour makes no more of them.
+///
+///     watching ── all of the inside fires at once ──► suspected ── its events fail to come ──►
+///     gone
+///        ▲                                               │
+///        └── it was the light, or an edge that passed ◄──┤
+///        └── its contour makes events as before ◄────────┘
+///
+/// What fires about the shape as well as in it is the light; what fires on one side first and on
+/// the other last is an edge that passes. A shape without enough of an inside is never suspected.
+class Vanishing {
+ public:
+    Vanishing() = default;
+    /// radius_px: of the shape about its centre.
+    Vanishing(const Silhouette& silhouette, double radius_px);
+
+    /// Watches anew: what is usual is to be learnt again.
+    void restart();
+
+    /// The shape has an inside to be watched.
+    [[nodiscard]] bool can_tell() const { return inside_px2_ > 0; }
+
+    /// An event, and where the object is. since_same_us: since the last one of the same pixel and
+    /// polarity.
+    void see(const Event& event, const Pose& pose, std::int64_t since_same_us) {
+        // A pixel counts once.
+        if (since_same_us <= window_us || !can_tell()) return;
+        const Eigen::Matrix2d& a = pose.a;
+        const Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - pose.t_px;
+        const double determinant = a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0);
+        const double cells_per_determinant = cells_per_px_ / determinant;
+        const double column = (a(1, 1) * q.x() - a(0, 1) * q.y()) * cells_per_determinant + middle_;
+        const double row = (a(0, 0) * q.y() - a(1, 0) * q.x()) * cells_per_determinant + middle_;
+        if (!(column >= 0 && row >= 0 && column < 2 * middle_ && row < 2 * middle_)) return;
+        const std::uint8_t cell =
+            map_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
+        if (cell == nowhere) return;
+        note(event, cell, {column, row}, std::abs(determinant));
+    }
+
+    /// An event within the gate of the contour; is_sharp where it is within a quarter of the gate.
+    void count_own(std::int64_t t_us, bool is_sharp) {
+        if (!can_tell()) return;
+        reach(t_us);
+        // What comes from anywhere makes nothing on the average.
+        const double of_contour = is_sharp ? 1 : -chance / (1 - chance);
+        own_.now += of_contour;
+        if (is_suspected() && t_us >= suspected_us_ + window_us) {
+            own_since_ += of_contour;
+            own_variance_ += of_contour * of_contour;
+            const double more = own_since_ - needed_;
+            if (more > 0 && more * more >= beyond_chance * beyond_chance * own_variance_) {
+                // It fires all over by itself: what is usual has changed.
+                suspected_us_ = -1;
+                began_us_ = t_us;
+                bins_ = 0;
+            }
+        }
+    }
+
+    [[nodiscard]] bool is_suspected() const { return suspected_us_ >= 0; }
+    [[nodiscard]] bool is_gone(std::int64_t t_us) const {
+        return is_suspected() && t_us >= suspected_us_ + verdict_us;
+    }
+
+    static constexpr std::int64_t bin_us = 2'500;
+    static constexpr std::int64_t window_us = 2 * bin_us;
+    static constexpr std::int64_t verdict_us = 35'000;
+    static constexpr std::size_t cells = 16;
+
+ private:
+    /// Events of the bin that runs and of the one before it, and how many a bin has usually.
+    struct Count {
+        double now = 0;
+        double before = 0;
+        double usual = 0;
+
+        [[nodiscard]] double more() const { return now + before - 2 * usual; }
+    };
+    /// Of times and places of the events inside, of one polarity.
+    struct Sums {
+        double n = 0, x = 0, y = 0, t = 0, xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0;
+    };
+
+    static constexpr std::uint8_t about = cells;  // of the map: next to the shape
+    static constexpr std::uint8_t nowhere = cells + 1;
+    static constexpr double chance = 0.25;
+    static constexpr double beyond_chance = 2.5;  // σ
+
+    void divide(std::vector<std::size_t>& places, std::size_t first, std::size_t last,
+                std::size_t cell, std::size_t count);
+    void reach(std::int64_t t_us) {
+        if (t_us >= bin_end_us_) next_bin(t_us);
+    }
+    void next_bin(std::int64_t t_us);
+    /// An event in a cell; its place in the map; image px² of a model px².
+    void note(const Event& event, std::uint8_t cell, const Eigen::Vector2d& place,
+              double image_per_model2);
+    void mark(std::size_t cell);
+    [[nodiscard]] bool is_of_object() const;
+    [[nodiscard]] double share_of_passing() const;
+
+    double middle_ = 0;  // of the map, a square about the centre: half as many cells as it has
+    double cells_per_px_ = 1;
+    std::size_t columns_ = 0;
+    std::vector<std::uint8_t> map_;         // which cell of the inside, or about, or nowhere
+    std::array<double, cells> cell_px2_{};  // model frame
+    double inside_px2_ = 0;
+    double about_px2_ = 0;
+
+    std::int64_t began_us_ = -1;
+    std::int64_t bin_end_us_ = 0;
+    double bins_ = 0;
+    double image_per_model2_ = 1;
+    std::array<Count, cells> inside_{};
+    Count about_{};
+    Count own_{};
+    std::array<Sums, 2> sums_now_{};  // of the bin that runs, by polarity
+    std::array<Sums, 2> sums_before_{};
+    std::uint32_t fired_ = 0;  // a bit for each cell
+    std::int64_t suspected_us_ = -1;
+    double own_since_ = 0;
+    double own_variance_ = 0;
+    double needed_ = 0;
+};
+
+}  // namespace pursuit::tracker
