@@ -51,7 +51,7 @@ double normal_density(double r2, double per_variance) {
 
 template <TransformKind kind>
 KalmanEstimator<kind>::KalmanEstimator(const Contour& contour, const ObjectParameters& parameters)
-    : contour_(contour), parameters_(parameters), bend_(contour_) {
+    : contour_(contour), parameters_(parameters), bend_(contour_), offsets_(contour_, kind) {
     restart({}, {});
 }
 
@@ -71,6 +71,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     stands_still_ = false;
     backlash_.restart(contour_.pieces().pieces().size());
     bend_.restart();
+    offsets_.restart();
     noise_gain_ = 1;
     most_pose_sigma_px_ = most_pose_sigma_px;
     t_us_ = -1;
@@ -278,7 +279,7 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
                          : backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
     const bool subsequent = static_cast<double>(since_same_us) * 1e-6 * speed_px_s_ < same_edge_px;
     const int lead = 2 * (event.polarity & 1) + (subsequent ? 1 : 0);
-    const double r_px = place.r_px - filter_.lead_px()(lead) * h;
+    const double r_px = place.r_px - filter_.lead_px()(lead) * h - offsets_.of(place.piece);
     const double distance_px = std::abs(r_px);
     if (distance_px > Clutter::far_from_px && distance_px < Clutter::far_to_px) {
         clutter_.count_far(place.piece, r_px);
@@ -327,6 +328,9 @@ bool KalmanEstimator<kind>::take(double weight) {
     filter_.correct(measured_.row, r, measured_.row.h_p_h + noise, share);
     if constexpr (is_bent) {
         bend_.correct(measured_.along_bend, r, measured_.row.h_p_h + noise, share);
+    }
+    if (parameters_.learns_offsets >= 0.5) {
+        offsets_.learn(measured_.piece, r, share, speed_px_s_);
     }
     if (lead_prior_.count(measured_.lead, share)) {
         filter_.tell_leads(lead_prior_.weights(), lead_prior_.held_px(), LeadPrior::held_sigma_px);

@@ -4,6 +4,7 @@
 #include "services/tracker/core/backlash.hpp"
 #include "services/tracker/core/bend.hpp"
 #include "services/tracker/core/clutter.hpp"
+#include "services/tracker/core/contour_offsets.hpp"
 #include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/event_clock.hpp"
 #include "services/tracker/core/lead_prior.hpp"
@@ -99,6 +100,7 @@ class KalmanEstimator : public Estimator {
     Clutter clutter_;
     Backlash backlash_;
     Bend bend_;
+    ContourOffsets offsets_;
     Measurement measured_{};
     Pose way_begin_;
     bool stands_still_ = false;  // among noise

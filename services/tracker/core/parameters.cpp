@@ -19,6 +19,9 @@ constexpr std::array object_table{
     Parameter<ObjectParameters>{"depth_order", &ObjectParameters::depth_order, 0, 1000, "1",
                                 "an object of a lower number hides those of higher ones; 0: told "
                                 "from the events that are missing"},
+    Parameter<ObjectParameters>{"learns_offsets", &ObjectParameters::learns_offsets, 0, 1, "1",
+                                "1: kalman learns how far beside each piece of the contour its "
+                                "events come; 0: the model is right"},
     Parameter<ObjectParameters>{"gradient_position_gain", &ObjectParameters::gradient_position_gain,
                                 0, 0.5, "1", "eta1 of the paper: step of the position"},
     Parameter<ObjectParameters>{"gradient_angle_gain_rad_px2",
