@@ -21,6 +21,9 @@ constexpr std::int64_t most_poses = 4'000;
 // Events a px of contour: of a way of 2 px or so, when the shape is alone.
 constexpr double events_per_px = 3;
 
+// What an object is moved to has to explain what fired there as well, beside scoring higher.
+constexpr double explained_weight = 1;
+
 // The second look, at where the shape has gone during the first.
 constexpr double again_reach_px = 15;
 constexpr double again_angle_rad = 0.4;
@@ -124,8 +127,12 @@ void Seeker::end(std::int64_t t_us, Track& track) {
 
 // Whether the object is where it is thought to be, or rather elsewhere.
 void Seeker::end_check(std::int64_t t_us, Track& track) {
-    const Doubt::Finding finding =
+    Doubt::Finding finding =
         track.compare(search_.found(), checked_.pose, search_.score_of(checked_.pose));
+    if (finding.is_told && !finding.is_here) {
+        finding.gain += explained_weight * (search_.explained(search_.found()->pose) -
+                                            search_.explained(checked_.pose));
+    }
     if (!track.take_finding(t_us, finding)) return;
     // Where it has gone meanwhile, if it goes so.
     Coast found{checked_.t_us, search_.found()->pose, checked_.velocity};

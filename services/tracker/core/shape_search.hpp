@@ -59,6 +59,9 @@ class ShapeSearch {
     };
     /// How well a pose fits as it is.
     [[nodiscard]] double score_of(const Pose& pose) const { return fit_of(pose).score; }
+    /// Of what fired near the contour, the share that fired on it, 0 … 1: what lies on lines of
+    /// something else leaves others of its lines unexplained.
+    [[nodiscard]] double explained(const Pose& pose) const;
     /// The best pose where it is good enough to be tried.
     [[nodiscard]] const std::optional<Found>& found() const { return found_; }
 
@@ -99,9 +102,6 @@ class ShapeSearch {
         double chance;
     };
     [[nodiscard]] Fit fit_of(const Pose& pose) const;
-    /// Of what fired near the contour, the share that fired on it, 0 … 1: what lies on lines of
-    /// something else leaves others of its lines unexplained.
-    [[nodiscard]] double explained(const Pose& pose) const;
     [[nodiscard]] std::vector<Sample> samples(int count) const;
     void draw();
 
