@@ -33,9 +33,10 @@ class ContourOffsets {
         return told_share_ * mean_px_[static_cast<std::size_t>(piece)];
     }
 
-    /// An event of this piece came so far beside it, the told offset and leads taken into account;
-    /// share: 0 … 1, that it is the object's. The faster it moves, the more of the distance is what
-    /// a pixel's delays make of the speed.
+    /// An event of this piece, which has a length, came so far beside it, the told offset and leads
+    /// taken into account; share: 0 … 1, that it is the object's. The faster it moves, the more of
+    /// the distance is what a pixel's delays make of the speed. (A point has no side: of one, every
+    /// event is beside it the same way.)
     void learn(std::int32_t piece, double residual_px, double share, double speed_px_s) {
         const auto i = static_cast<std::size_t>(piece);
         const double fast = speed_px_s / fast_px_s;

@@ -292,6 +292,7 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     }
     measured_.r_px = r_px;
     measured_.piece = place.piece;
+    measured_.has_side = segment.per_length2 > 0;
     measured_.lead = lead;
     const double sigma_px = subsequent ? subsequent_noise_px : first_noise_px;
     measured_.noise_px2 = sigma_px * sigma_px * noise_gain_;
@@ -329,7 +330,7 @@ bool KalmanEstimator<kind>::take(double weight) {
     if constexpr (is_bent) {
         bend_.correct(measured_.along_bend, r, measured_.row.h_p_h + noise, share);
     }
-    if (parameters_.learns_offsets >= 0.5) {
+    if (parameters_.learns_offsets >= 0.5 && measured_.has_side) {
         offsets_.learn(measured_.piece, r, share, speed_px_s_);
     }
     if (lead_prior_.count(measured_.lead, share)) {

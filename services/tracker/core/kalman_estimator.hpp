@@ -82,6 +82,7 @@ class KalmanEstimator : public Estimator {
         double far_likelihood;
         double clutter;
         Eigen::Vector2d along_bend;
+        bool has_side = false;
     };
 
     /// How large the contour is in the image.
