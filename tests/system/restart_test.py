@@ -73,7 +73,7 @@ class Restart(SystemTest):
         self.tracker.kill()
         killed = time.monotonic()
         time.sleep(0.05)
-        seen = len(viewer.out())
+        seen = viewer.out().rfind("\n") + 1  # not within a line
         self.tracker = self.service("tracker", store=self.store)
         pose, came = self.next_pose(viewer, seen, lambda p: p["model"] == "van")
         took = came - killed
@@ -98,7 +98,7 @@ class Restart(SystemTest):
         # Silence is the sensor's fault, not the track's.
         self.eventually(lambda: self.status("tracker")["sensor_silent"], what="silence is noticed")
         stream = self.status("tracker")["stream_id"]
-        seen = len(viewer.out())
+        seen = viewer.out().rfind("\n") + 1  # not within a line
         restarted = time.monotonic()
         self.sensor(start_s=1.3)
         pose, came = self.next_pose(viewer, seen, lambda p: p["model"] == "van" and

@@ -58,7 +58,6 @@ ShapeSearch::ShapeSearch(const Contour& contour, const Outline& outline)
     coarse_ = samples(coarse_points);
     fine_ = samples(fine_points);
     best_.reserve(kept + 1);
-    draw();
 }
 
 void ShapeSearch::draw() {
@@ -280,7 +279,8 @@ Pose ShapeSearch::fitted(Pose pose) const {
     return pose;
 }
 
-double ShapeSearch::explained(const Pose& pose) const {
+double ShapeSearch::explained(const Pose& pose) {
+    if (drawn_.columns() == 0) draw();
     const Eigen::Matrix2d model_from_image = pose.a.inverse();
     const double cell_px = map_->cell_px();
     const double reach_px = pose.a.norm() * radius_px_ + near_it_px;

@@ -61,7 +61,7 @@ class ShapeSearch {
     [[nodiscard]] double score_of(const Pose& pose) const { return fit_of(pose).score; }
     /// Of what fired near the contour, the share that fired on it, 0 … 1: what lies on lines of
     /// something else leaves others of its lines unexplained.
-    [[nodiscard]] double explained(const Pose& pose) const;
+    [[nodiscard]] double explained(const Pose& pose);
     /// The best pose where it is good enough to be tried.
     [[nodiscard]] const std::optional<Found>& found() const { return found_; }
 
@@ -110,7 +110,7 @@ class ShapeSearch {
     double radius_px_ = 0;
     std::vector<Sample> coarse_;
     std::vector<Sample> fine_;
-    FiredMap drawn_;  // the contour itself, as if it had fired all over; model frame
+    FiredMap drawn_;  // the contour itself, as if it had fired all over; drawn when asked for
     Eigen::Vector2d drawn_from_px_{0, 0};
 
     const FiredMap* map_ = nullptr;
