@@ -54,8 +54,9 @@ Approach Acquisition::approach(const Event& event) {
 void Acquisition::take() {
     estimator_.take(1);
     if (distance_px_ < narrowest_gate_px) {
-        health_.count(distance_px_, narrowest_gate_px, t_us_);
-        if (distance_px_ < narrowest_gate_px / 4) {
+        const bool is_sharp = distance_px_ < narrowest_gate_px / 4;
+        health_.count(is_sharp, t_us_);
+        if (is_sharp) {
             if (cover_.count(piece_)) {
                 cover_.close_window(outline_, estimator_.pose(), velocity());
             }

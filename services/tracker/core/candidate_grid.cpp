@@ -13,10 +13,6 @@ constexpr double most_cells = 65536;
 // What a bound must be passed by to be passed: places on a cell's rim may be rounded into it.
 constexpr double hair = 1e-8;
 
-struct Place {
-    double x, y;
-};
-
 double squared(const Place& l, const Place& r) {
     return (l.x - r.x) * (l.x - r.x) + (l.y - r.y) * (l.y - r.y);
 }
@@ -140,7 +136,7 @@ struct CandidateGrid::Divider {
     }
 
     void fill(int column, int row, int size, const List& kept) {
-        const std::uint32_t cell = kept.size() == 1 ? kept[0] | one_alone : list(kept);
+        const std::uint32_t cell = list(kept);
         for (int y = row; y < std::min(row + size, grid.rows_); ++y) {
             for (int x = column; x < std::min(column + size, grid.columns_); ++x) {
                 grid.cells_[grid.place_of(x, y)] = cell;
@@ -152,8 +148,10 @@ struct CandidateGrid::Divider {
         if (kept == last_list && last_at > 0) return last_at;
         last_list = kept;
         last_at = static_cast<std::uint32_t>(grid.listed_.size());
-        grid.listed_.push_back(static_cast<std::uint16_t>(kept.size()));
+        const bool is_odd = kept.size() % 2 == 1;
+        grid.listed_.push_back(static_cast<std::uint16_t>(kept.size() + (is_odd ? 1 : 0)));
         grid.listed_.insert(grid.listed_.end(), kept.begin(), kept.end());
+        if (is_odd) grid.listed_.push_back(kept.back());
         return last_at;
     }
 };
@@ -165,6 +163,8 @@ CandidateGrid::CandidateGrid(std::vector<Piece> pieces, double finest_cell_px)
         segments_.emplace_back(piece.ax, piece.ay, piece.bx, piece.by);
         are_points_ &= piece.ax == piece.bx && piece.ay == piece.by;
     }
+    if (!are_points_) return;
+    for (const Piece& piece : pieces_) points_.push_back({piece.ax, piece.ay});
 }
 
 CandidateGrid::CandidateGrid(std::vector<Piece> pieces, double reach_px, double anisotropy)
@@ -192,10 +192,7 @@ void CandidateGrid::build(double reach_px, double anisotropy) {
     cells_per_px_ = 1 / cell_px;
     columns_ = static_cast<int>(width_px / cell_px) + 1;
     rows_ = static_cast<int>(height_px / cell_px) + 1;
-    tiles_ = (columns_ + 3) / 4;
-    cells_.assign(std::size_t{16} * static_cast<std::size_t>(tiles_) *
-                      static_cast<std::size_t>((rows_ + 3) / 4),
-                  0);
+    cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
     listed_.assign(1, 0);  // the list of nothing
 
     std::vector<std::uint16_t> all(pieces_.size());
@@ -203,17 +200,6 @@ void CandidateGrid::build(double reach_px, double anisotropy) {
     int size = 1;
     while (size < std::max(columns_, rows_)) size *= 2;
     Divider{*this}.divide(0, 0, size, all);
-}
-
-double CandidateGrid::mean_candidates() const {
-    double cells = 0;
-    double candidates = 0;
-    for (const std::uint32_t cell : cells_) {
-        const double count = (cell & one_alone) != 0 ? 1 : listed_[cell];
-        cells += count > 0 ? 1 : 0;
-        candidates += count;
-    }
-    return cells > 0 ? candidates / cells : 0;
 }
 
 }  // namespace pursuit::tracker

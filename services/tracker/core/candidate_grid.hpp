@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace pursuit::tracker {
@@ -25,6 +27,11 @@ struct alignas(64) Segment {
         nx = dy / length;
         ny = -dx / length;
     }
+};
+
+/// Of the model frame.
+struct Place {
+    double x, y;
 };
 
 /// Squared length in the image of a vector of the model frame: vᵀ(AᵀA)v.
@@ -100,79 +107,89 @@ class CandidateGrid {
         std::int32_t piece = -1;  ///< -1: beyond the reach.
         double squared_px = 0;    ///< In the image metric. The first of several equally near.
         double foot = 0;          ///< Where on the piece, 0 … 1.
+
+        void take(std::uint16_t other, double other_squared_px, double other_foot) {
+            const bool is_nearer = other_squared_px < squared_px;
+            piece = is_nearer ? other : piece;
+            foot = is_nearer ? other_foot : foot;
+            squared_px = is_nearer ? other_squared_px : squared_px;
+        }
     };
 
-    /// Metric: ImageMetric, or ModelMetric where A keeps angles.
+    /// Metric: ImageMetric, or ModelMetric where A keeps angles. (Always inlined: what it gives
+    /// stays in registers.)
     template <class Metric>
-    [[nodiscard]] Nearest nearest(double x, double y, const Metric& metric) const {
+    [[nodiscard, gnu::always_inline]] Nearest nearest(double x, double y,
+                                                      const Metric& metric) const {
         const double column = (x - left_px_) * cells_per_px_;
         const double row = (y - top_px_) * cells_per_px_;
         if (!(column >= 0 && row >= 0 && column < columns_ && row < rows_)) return {};
-        const std::uint32_t cell =
-            cells_[place_of(static_cast<int>(column), static_cast<int>(row))];
-        if ((cell & one_alone) != 0) {
-            const std::uint32_t piece = cell & ~one_alone;
-            return are_points_ ? seen_point(piece, x, y, metric) : seen(piece, x, y, metric);
-        }
-        const std::uint16_t* listed = &listed_[cell];
-        const std::size_t count = *listed++;
-        if (count == 0) return {};
-        const auto nearest_of = [&](const auto& measured) {
-            Nearest best = measured(listed[0]);
-            for (std::size_t i = 1; i < count; ++i) {
-                const Nearest other = measured(listed[i]);
-                if (other.squared_px < best.squared_px) best = other;
-            }
-            return best;
-        };
+        const std::uint16_t* listed =
+            &listed_[cells_[place_of(static_cast<int>(column), static_cast<int>(row))]];
+        const std::uint16_t* const end = listed + 1 + *listed;
+        Nearest best;
+        if (++listed == end) return best;
+        best.squared_px = std::numeric_limits<double>::infinity();
+        // Two at a time and without a branch: which is nearer, no processor can foresee.
         if (are_points_) {
-            return nearest_of([&](std::uint32_t i) { return seen_point(i, x, y, metric); });
+            do {
+                const Place& first = points_[listed[0]];
+                const Place& second = points_[listed[1]];
+                const double first2 = metric.squared(x - first.x, y - first.y);
+                const double second2 = metric.squared(x - second.x, y - second.y);
+                best.take(listed[0], first2, 0);
+                best.take(listed[1], second2, 0);
+                listed += 2;
+            } while (listed != end);
+            return best;
         }
-        return nearest_of([&](std::uint32_t i) { return seen(i, x, y, metric); });
+        do {
+            const Nearest first = seen(listed[0], x, y, metric);
+            const Nearest second = seen(listed[1], x, y, metric);
+            best.take(listed[0], first.squared_px, first.foot);
+            best.take(listed[1], second.squared_px, second.foot);
+            listed += 2;
+        } while (listed != end);
+        return best;
     }
 
     [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
     [[nodiscard]] const Segment& segment(std::int32_t piece) const {
         return segments_[static_cast<std::size_t>(piece)];
     }
+    /// The place that a lookup found, px of the model frame.
+    [[nodiscard]] Eigen::Vector2d place(const Nearest& nearest) const {
+        const auto i = static_cast<std::size_t>(nearest.piece);
+        if (are_points_) return {points_[i].x, points_[i].y};
+        const Segment& segment = segments_[i];
+        return {segment.ax + nearest.foot * segment.dx, segment.ay + nearest.foot * segment.dy};
+    }
     [[nodiscard]] double reach_px() const { return reach_px_; }
     [[nodiscard]] double anisotropy() const { return anisotropy_; }
-    /// Of the cells that list any.
-    [[nodiscard]] double mean_candidates() const;
 
  private:
     struct Divider;
 
-    template <class Metric>
-    [[nodiscard]] Nearest seen_point(std::uint32_t piece, double x, double y,
-                                     const Metric& metric) const {
-        const Segment& segment = segments_[piece];
-        return {static_cast<std::int32_t>(piece), metric.squared(x - segment.ax, y - segment.ay),
-                0};
-    }
     // As Piece has it, in the same order.
     template <class Metric>
-    [[nodiscard]] Nearest seen(std::uint32_t piece, double x, double y,
-                               const Metric& metric) const {
+    [[nodiscard, gnu::always_inline]] Nearest seen(std::uint16_t piece, double x, double y,
+                                                   const Metric& metric) const {
         const Segment& segment = segments_[piece];
         const double vx = x - segment.ax;
         const double vy = y - segment.ay;
-        const double along = metric.along(vx, vy, segment);
-        double foot = along > 0 ? along : 0;  // also of a point, whose `along` may be no number
-        foot = foot > 1 ? 1 : foot;
-        return {static_cast<std::int32_t>(piece),
-                metric.squared(vx - foot * segment.dx, vy - foot * segment.dy), foot};
+        // The first is 0 also of a point, whose `along` may be no number.
+        const double foot = std::min(std::max(0.0, metric.along(vx, vy, segment)), 1.0);
+        return {piece, metric.squared(vx - foot * segment.dx, vy - foot * segment.dy), foot};
     }
 
-    // Cells of 4 by 4 lie together: a contour runs through few lines of the cache.
     [[nodiscard]] std::size_t place_of(int column, int row) const {
-        const int tile = (row >> 2) * tiles_ + (column >> 2);
-        return static_cast<std::size_t>(tile * 16 + (row & 3) * 4 + (column & 3));
+        return static_cast<std::size_t>(row * columns_ + column);
     }
 
     std::vector<Piece> pieces_;
     std::vector<Segment> segments_;
     bool are_points_ = false;
+    std::vector<Place> points_;  // the same, where all of them are points: less to fetch
     double finest_cell_px_ = 1.5;
     double reach_px_ = -1;
     double anisotropy_ = 0;
@@ -181,10 +198,9 @@ class CandidateGrid {
     double cells_per_px_ = 1;
     int columns_ = 0;
     int rows_ = 0;
-    int tiles_ = 0;  // side by side
-    static constexpr std::uint32_t one_alone = std::uint32_t{1} << 31;
-    std::vector<std::uint32_t> cells_;   // where each one's list begins, or the piece it has alone
-    std::vector<std::uint16_t> listed_;  // the lists: how many, and which, rising
+    std::vector<std::uint32_t> cells_;  // where each one's list begins
+    // The lists: how many, and which, rising; an odd one's last is there twice.
+    std::vector<std::uint16_t> listed_;
 };
 
 }  // namespace pursuit::tracker

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/contour_offsets.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -31,17 +30,27 @@ int freedoms_of(TransformKind kind) {
 }  // namespace
 
 ContourOffsets::ContourOffsets(const Contour& contour, TransformKind kind)
-    : pieces_(contour.pieces().pieces()),
-      per_gyration_(1 / std::max(contour.gyration_px(), 1.0)),
-      freedoms_(freedoms_of(kind)),
-      settled_every_(
-          std::max(least_between, between_per_piece * static_cast<int>(pieces_.size()))) {
+    : per_gyration_(1 / std::max(contour.gyration_px(), 1.0)), freedoms_(freedoms_of(kind)) {
+    const std::vector<Piece>& pieces = contour.pieces().pieces();
+    settled_every_ = std::max(least_between, between_per_piece * static_cast<int>(pieces.size()));
+    mean_px_.resize(pieces.size());
+    Eigen::Matrix<double, most_freedoms, most_freedoms> normal =
+        Eigen::Matrix<double, most_freedoms, most_freedoms>::Identity() * regular;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Piece& piece = pieces[i];
+        const double length_px = std::hypot(piece.bx - piece.ax, piece.by - piece.ay);
+        if (!(length_px > 0)) continue;
+        rows_.push_back({i, length_px, along(piece, length_px)});
+        const Freedoms& row = rows_.back().along;
+        normal += length_px * row * row.transpose();
+    }
+    normal_.compute(normal);
     restart();
 }
 
 void ContourOffsets::restart() {
-    mean_px_.assign(pieces_.size(), 0);
-    variance_px2_.assign(pieces_.size(), sigma_px * sigma_px);
+    mean_px_.assign(mean_px_.size(), 0);
+    variance_px2_.assign(mean_px_.size(), sigma_px * sigma_px);
     told_share_ = 0;
     learnt_ = 0;
 }
@@ -65,29 +74,18 @@ ContourOffsets::Freedoms ContourOffsets::along(const Piece& piece, double length
 
 void ContourOffsets::settle() {
     learnt_ = 0;
-    Eigen::Matrix<double, most_freedoms, most_freedoms> normal =
-        Eigen::Matrix<double, most_freedoms, most_freedoms>::Identity() * regular;
     Freedoms right = Freedoms::Zero();
-    const auto for_all = [&](const auto& with) {
-        for (std::size_t i = 0; i < pieces_.size(); ++i) {
-            const Piece& piece = pieces_[i];
-            const double length_px = std::hypot(piece.bx - piece.ax, piece.by - piece.ay);
-            if (length_px > 0) with(i, length_px, along(piece, length_px));
-        }
-    };
-    for_all([&](std::size_t i, double length_px, const Freedoms& row) {
-        normal += length_px * row * row.transpose();
-        right += length_px * mean_px_[i] * row;
-    });
-    const Freedoms moved = normal.ldlt().solve(right);
+    for (const Row& row : rows_) right += row.length_px * mean_px_[row.piece] * row.along;
+    const Freedoms moved = normal_.solve(right);
     double squares_px2 = 0;
     double known = 0;
-    for_all([&](std::size_t i, double, const Freedoms& row) {
-        mean_px_[i] -= row.dot(moved);
-        const double share = 1 - variance_px2_[i] / (sigma_px * sigma_px);
-        squares_px2 += share * mean_px_[i] * mean_px_[i];
+    for (const Row& row : rows_) {
+        double& mean_px = mean_px_[row.piece];
+        mean_px -= row.along.dot(moved);
+        const double share = 1 - variance_px2_[row.piece] / (sigma_px * sigma_px);
+        squares_px2 += share * mean_px * mean_px;
         known += share;
-    });
+    }
     told_share_ =
         squares_px2 > 0 ? std::max(1 - physics_px * physics_px * known / squares_px2, 0.0) : 0.0;
 }

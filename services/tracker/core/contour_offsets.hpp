@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
@@ -61,7 +62,13 @@ class ContourOffsets {
     /// Takes out what the transform could do, and finds how much of the rest is told.
     void settle();
 
-    std::vector<Piece> pieces_;
+    struct Row {
+        std::size_t piece = 0;
+        double length_px = 0;
+        Freedoms along;
+    };
+    std::vector<Row> rows_;  // of the pieces that have a length
+    Eigen::LDLT<Eigen::Matrix<double, most_freedoms, most_freedoms>> normal_;
     double per_gyration_ = 0;
     int freedoms_ = 0;
     std::vector<double> mean_px_;

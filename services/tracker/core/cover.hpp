@@ -37,7 +37,7 @@ class Cover {
  private:
     static constexpr std::size_t sectors = 20;
     static constexpr int window_events = 50;
-    static constexpr int usual_parts = 128;
+    static constexpr int usual_parts = 40;
     static constexpr int most_parts = 1024;
 
     using Numbers = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_parts, 1>;

@@ -10,6 +10,7 @@ namespace pursuit::tracker {
 GradientEstimator::GradientEstimator(TransformKind transform, const Contour& contour,
                                      const ObjectParameters& parameters, Pull pull)
     : transform_(transform), pull_(pull), contour_(contour), parameters_(parameters) {
+    set_parameters(parameters);
     restart({}, {});
 }
 
@@ -25,10 +26,16 @@ void GradientEstimator::restart(const Pose& pose, const Velocity&) {
 
 void GradientEstimator::set_parameters(const ObjectParameters& parameters) {
     parameters_ = parameters;
+    gains_ = {parameters.gradient_position_gain, parameters.gradient_angle_gain_rad_px2,
+              parameters.gradient_scale_gain_1_px, parameters.gradient_affine_gain_1_px2};
     is_laid_out_ = false;
+    measure_extent();
 }
 
-void GradientEstimator::measure_extent() { extent_px_ = contour_.radius_px() * pose_.a.norm(); }
+void GradientEstimator::measure_extent() {
+    extent_px_ = contour_.radius_px() * pose_.a.norm();
+    reach2_px2_ = reach_px(0) * reach_px(0);
+}
 
 void GradientEstimator::lay_out() {
     contour_.fit(pose_.a, parameters_.gate_px);
@@ -38,8 +45,7 @@ void GradientEstimator::lay_out() {
 
 Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     q_ = Eigen::Vector2d(event.x, event.y) - pose_.t_px;
-    const double within_px = reach_px(event.t_us);
-    if (q_.squaredNorm() > within_px * within_px) return {};
+    if (q_.squaredNorm() > reach2_px2_) return {};
     if (!is_laid_out_) lay_out();
     const bool wants_points = pull_ == Pull::point;
     const double gate2 = parameters_.gate_px * parameters_.gate_px;
@@ -62,9 +68,7 @@ Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     }
     if (nearest.piece < 0 || nearest.squared_px > gate2) return {};
     distance_px_ = std::sqrt(nearest.squared_px);
-    const CandidateGrid& grid = wants_points ? contour_.points() : contour_.pieces();
-    const Segment& segment = grid.segment(nearest.piece);
-    m_ << segment.ax + nearest.foot * segment.dx, segment.ay + nearest.foot * segment.dy;
+    m_ = (wants_points ? contour_.points() : contour_.pieces()).place(nearest);
     t_us_ = event.t_us;
     // Beside a little clutter.
     return {distance_px_, 0.02, std::sqrt(on_contour.squared_px), on_contour.piece};
@@ -79,10 +83,7 @@ double GradientEstimator::likelihood() const {
 
 bool GradientEstimator::take(double weight) {
     if (!(weight > 0)) return false;
-    const DescentGains gains{
-        parameters_.gradient_position_gain, parameters_.gradient_angle_gain_rad_px2,
-        parameters_.gradient_scale_gain_1_px, parameters_.gradient_affine_gain_1_px2};
-    descend(pose_, transform_, gains, q_, m_, weight);
+    descend(pose_, transform_, gains_, q_, m_, weight);
     if (transform_ != TransformKind::isometry) measure_extent();
     residual_px_ += 0.01 * weight * (distance_px_ - residual_px_);
     if (slope_.is_due(t_us_)) {

@@ -37,7 +37,9 @@ class GradientEstimator : public Estimator {
     Contour contour_;
     ObjectParameters parameters_;
     Pose pose_;
-    double extent_px_ = 0;      // of the shape about the pose
+    double extent_px_ = 0;   // of the shape about the pose
+    double reach2_px2_ = 0;  // and the gate, squared
+    DescentGains gains_;
     bool is_laid_out_ = false;  // the contour, for every pose of an isometry
     Slope<5> slope_{0.02};      // of x, y, θ (unwrapped), log sx, log sy
     double turned_rad_ = 0;

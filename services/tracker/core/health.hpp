@@ -22,8 +22,9 @@ class Health {
 
     Health() = default;
 
-    /// An event at this distance, of those within the gate; `is_noise` where noise alone comes.
-    void count(double distance_px, double gate_px, std::int64_t t_us, bool is_noise = false) {
+    /// An event of those within the gate; `is_sharp` within a quarter of it, `is_noise` where noise
+    /// alone comes.
+    void count(bool is_sharp, std::int64_t t_us, bool is_noise = false) {
         if (events_ > 0) {
             const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
             recent_ *= fade_.over(t_us - t_us_);
@@ -35,12 +36,11 @@ class Health {
         t_us_ = t_us;
         recent_ += 1;
         events_ = std::min(events_ + 1, window_events);
-        const double is_sharp = distance_px < gate_px / 4 ? 1 : 0;
         is_quiet_ = is_noise || recent_ < own_rate_ / 4;
         if (!is_quiet_) {
             // Over the last 17 ms where events are many: noise that hides most of them is steady.
             window_ = std::clamp(recent_ / 3, window_events, most_events);
-            sharpness_ += (is_sharp - sharpness_) / window_;
+            sharpness_ += (static_cast<double>(is_sharp) - sharpness_) / window_;
             if (sharpness_ > begin_of_fit) {
                 usual_count_ = std::min(usual_count_ + 1, usual_events);
                 usual_sharpness_ += (sharpness_ - usual_sharpness_) / usual_count_;
@@ -49,7 +49,7 @@ class Health {
             lively_t_us_ = t_us;
             return;
         }
-        quiet_sharpness_ += (is_sharp - quiet_sharpness_) / window_events;
+        quiet_sharpness_ += (static_cast<double>(is_sharp) - quiet_sharpness_) / window_events;
         if (!is_noise && quiet_sharpness_ > good) own_rate_ = recent_;  // It moves, only slower.
     }
 

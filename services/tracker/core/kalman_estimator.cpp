@@ -42,9 +42,15 @@ constexpr double most_pose_sigma_px = 1.2;
 constexpr double onset_px2 = 0.5;     // variance, when it begins to move out of noise
 constexpr double onset_px_s = 200;    // σ of its speed then
 constexpr double silent_events = 10;  // expected and not come: it stands still
+// The mean goes on with every event, what is known of it (its covariance, and how it can turn away)
+// after so much of a way or time.
+constexpr double spread_way_px = 0.05;
+constexpr double spread_s = 0.002;
 
-double normal_density(double r2, double per_variance) {
-    return std::exp(-0.5 * r2 * per_variance) * std::sqrt(per_variance * (0.5 / std::numbers::pi));
+// In single precision: the densities are weighed against each other, to a few digits.
+float normal_density(double r2, double per_variance) {
+    return std::exp(static_cast<float>(-0.5 * r2 * per_variance)) *
+           std::sqrt(static_cast<float>(per_variance * (0.5 / std::numbers::pi)));
 }
 
 }  // namespace
@@ -75,6 +81,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     noise_gain_ = 1;
     most_pose_sigma_px_ = most_pose_sigma_px;
     t_us_ = -1;
+    unspread_s_ = 0;
     way_begin_ = pose;
     contour_.fit(pose.a, Clutter::far_to_px + 1);
     sampled_for_area_ = 0;
@@ -98,6 +105,7 @@ void KalmanEstimator<kind>::resume(std::int64_t t_us, const Pose& pose, const Ve
     most_pose_sigma_px_ = std::max(most_pose_sigma_px, along_px);
     way_begin_ = pose;
     t_us_ = t_us;
+    unspread_s_ = 0;
 }
 
 template <TransformKind kind>
@@ -124,33 +132,55 @@ double KalmanEstimator<kind>::effective_length_px() const {
 
 template <TransformKind kind>
 void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
-    if (t_us_ < 0 || !clutter_.is_measured()) t_us_ = t_us;
+    if (t_us_ < 0 || !clutter_.is_measured()) {
+        t_us_ = t_us;
+        unspread_s_ = 0;
+    }
     const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
     if (!(dt_s > 0)) return;
     t_us_ = t_us;
     clock_.wait(dt_s);
 
-    const double length_px = effective_length_px();
-    const double gyration_px = size_.gyration_px;
-    // Of the variance of a component: its own unit for 1 px of the contour, squared.
-    const auto unit = [&](int i) { return i < 2 ? 1 : size_.per_gyration2; };
     // Among noise alone nothing tells where it goes: it stands still until there is more.
     const bool stood_still = stands_still_;
     stands_still_ = clutter_.is_noise_alone();
     if (stands_still_) {
         filter_.slow_down(0);
         clock_.restart_rate();
+        unspread_s_ = 0;
         return;
     }
     if (stood_still) {
         for (int i = 0; i < Filter::dof; ++i) {
-            filter_.add_variance(i, onset_px2 * unit(i));
-            filter_.add_variance(Filter::dof + i, onset_px_s * onset_px_s * unit(i));
+            filter_.add_variance(i, onset_px2 * unit2(i));
+            filter_.add_variance(Filter::dof + i, onset_px_s * onset_px_s * unit2(i));
         }
     }
+    // It is told to move until so many events that should have come have not.
+    unspread_s_ += dt_s;
+    const double missed_of_px_s = clock_.events_per_px(effective_length_px()) * dt_s;
+    const double missed2 = missed_of_px_s * missed_of_px_s * own_speed2();
+    constexpr double silent2 = silent_events * silent_events;
+    filter_.advance(missed2 > silent2 ? dt_s * std::sqrt(silent2 / missed2) : dt_s);
+    if (stood_still || unspread_s_ > spread_s || unspread_s_ * speed_px_s_ > spread_way_px) {
+        spread(unspread_s_);
+        unspread_s_ = 0;
+    }
+}
+
+template <TransformKind kind>
+void KalmanEstimator<kind>::spread(double dt_s) {
+    const double length_px = effective_length_px();
+    const Pose& pose = filter_.pose();
+    const double gyration_px = contour_.gyration_px();
+    const double way2 = (pose.t_px - way_begin_.t_px).squaredNorm() +
+                        0.5 * gyration_px * gyration_px * (pose.a - way_begin_.a).squaredNorm();
+    if (clock_.end_way(way2, length_px)) {
+        clock_.begin_way();
+        way_begin_ = pose;
+    }
     const double told_px_s = clock_.speed_px_s(length_px);
-    const double own_px_s = std::sqrt(filter_.twist().template head<2>().squaredNorm() +
-                                      M::turning_speed2(filter_.twist(), gyration_px));
+    const double own_px_s = std::sqrt(own_speed2());
     const double at_most = std::max(std::min(own_px_s, 2 * told_px_s), told_px_s);
     speed_px_s_ = std::sqrt(at_most * at_most + still_px_s * still_px_s);
     // What shows of it by half tells by half where it turns.
@@ -161,28 +191,26 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     if constexpr (kind == TransformKind::similarity) noise(3) *= 0.2 * 0.2;
     if constexpr (kind == TransformKind::paper_affine) noise.template tail<2>() *= 0.7 * 0.7;
     if constexpr (kind == TransformKind::full_affine) noise.template tail<4>() *= 0.7 * 0.7;
-    // It is told to move until so many events that should have come have not.
-    const double expected_hz = clock_.events_per_px(length_px) * own_px_s;
-    const double missed = dt_s * expected_hz;
     if constexpr (is_bent) bend_.predict(speed_px_s_ * dt_s);
-    filter_.predict(dt_s, missed > silent_events ? silent_events / expected_hz : dt_s, noise);
+    filter_.spread(dt_s, noise);
 
     // Silence means standing still; less so where what is hidden, and whose the events beside it
     // are, is known by half only. (With 0.3 a car fell behind half way under a van.)
     const double still_share = visible_share_ < 0.95 ? 0.1 : 0.6;
     if (own_px_s > 0 && told_px_s < still_share * own_px_s) {
+        const double missed = dt_s * clock_.events_per_px(length_px) * own_px_s;
         const double f =
             std::min(1.0, missed / silent_events) * (1 - told_px_s / own_px_s / still_share);
         filter_.slow_down(1 - f);
         for (int i = 0; i < Filter::dof; ++i) {
-            filter_.add_variance(Filter::dof + i, f * own_px_s * own_px_s * unit(i));
+            filter_.add_variance(Filter::dof + i, f * own_px_s * own_px_s * unit2(i));
         }
     }
     const double speed_sigma = std::max(told_px_s, std::min(own_px_s, 3 * told_px_s)) + 30;
     for (int i = 0; i < Filter::dof; ++i) {
-        filter_.limit_variance(i, most_pose_sigma_px_ * most_pose_sigma_px_ * unit(i));
+        filter_.limit_variance(i, most_pose_sigma_px_ * most_pose_sigma_px_ * unit2(i));
         if (clock_.is_told()) {
-            filter_.limit_variance(Filter::dof + i, speed_sigma * speed_sigma * unit(i));
+            filter_.limit_variance(Filter::dof + i, speed_sigma * speed_sigma * unit2(i));
         }
     }
     for (int i = 0; i < Filter::leads; ++i) {
@@ -348,14 +376,6 @@ bool KalmanEstimator<kind>::take(double weight) {
     most_pose_sigma_px_ =
         most_pose_sigma_px + bound_settles * (most_pose_sigma_px_ - most_pose_sigma_px);
     clock_.count(share);
-    const Pose& pose = filter_.pose();
-    const double gyration_px = contour_.gyration_px();
-    const double way2 = (pose.t_px - way_begin_.t_px).squaredNorm() +
-                        0.5 * gyration_px * gyration_px * (pose.a - way_begin_.a).squaredNorm();
-    if (clock_.end_way(way2, effective_length_px())) {
-        clock_.begin_way();
-        way_begin_ = pose;
-    }
     return true;
 }
 
@@ -381,7 +401,7 @@ template <TransformKind kind>
 void KalmanEstimator<kind>::describe_covariance(std::int64_t t_us, PoseRecord& record) const {
     // As far as the state is known, and how far it can have gone since the last event near it.
     using Square = Eigen::Matrix<double, Filter::dof, Filter::dof>;
-    const double dt_s = t_us_ < 0 ? 0 : static_cast<double>(t_us - t_us_) * 1e-6;
+    const double dt_s = t_us_ < 0 ? 0 : static_cast<double>(t_us - t_us_) * 1e-6 + unspread_s_;
     const typename Filter::Covariance p = filter_.covariance();
     const Square pv = p.template block<Filter::dof, Filter::dof>(0, Filter::dof);
     const Square vv = p.template block<Filter::dof, Filter::dof>(Filter::dof, Filter::dof);

@@ -54,6 +54,15 @@ class KalmanEstimator : public Estimator {
     static constexpr bool is_bent = kind == TransformKind::full_affine;
 
     void predict_to(std::int64_t t_us);
+    /// What the filter knows, dt_s after it was told last.
+    void spread(double dt_s);
+    /// Of the contour, as the filter has it, in the mean; squared.
+    [[nodiscard]] double own_speed2() const {
+        return filter_.twist().template head<2>().squaredNorm() +
+               M::turning_speed2(filter_.twist(), size_.gyration_px);
+    }
+    /// Of the variance of a component of a step: its own unit for 1 px of the contour, squared.
+    [[nodiscard]] double unit2(int i) const { return i < 2 ? 1 : size_.per_gyration2; }
     void measure_size();
     [[nodiscard]] double effective_length_px() const;
 
@@ -109,7 +118,8 @@ class KalmanEstimator : public Estimator {
     double noise_gain_ = 1;  // g_R
     double visible_share_ = 1;
     double most_pose_sigma_px_ = 0;
-    double speed_px_s_ = 0;  // u, at the last prediction
+    double speed_px_s_ = 0;  // u, when the filter was spread last
+    double unspread_s_ = 0;  // since then
     double residual_px_ = 0.5;
     double sampled_for_area_ = 0;
     std::int64_t t_us_ = -1;  // of the state; -1: before the first event

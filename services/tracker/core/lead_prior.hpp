@@ -48,8 +48,9 @@ class LeadPrior {
     bool count(int lead, double share) {
         double& subsequent = subsequent_share_[static_cast<std::size_t>(lead / 2)];
         subsequent += memory * share * (lead % 2 - subsequent);
-        since_told_ = (since_told_ + 1) % every_events;
-        return since_told_ == 0;
+        if (++since_told_ < every_events) return false;
+        since_told_ = 0;
+        return true;
     }
 
     /// What is held of what they have in common: weights() · leads = held_px().

@@ -31,12 +31,12 @@ double image_depth_px(const Track& front, const Eigen::Vector2d& p) {
     return front.silhouette().depth_px(pose.a.inverse() * (p - pose.t_px)) * scale;
 }
 
-bool may_overlap(const Track& one, const Track& other) {
-    const double reach_px = one.radius_px() + other.radius_px() + band_px;
-    return (one.pose().t_px - other.pose().t_px).squaredNorm() < reach_px * reach_px;
-}
-
 }  // namespace
+
+bool Occlusion::may_overlap(const Round& one, const Round& other) {
+    const double reach_px = one.radius_px + other.radius_px + band_px;
+    return (one.t_px - other.t_px).squaredNorm() < reach_px * reach_px;
+}
 
 void Occlusion::restart() {
     next_us_ = 0;
@@ -57,18 +57,20 @@ void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
     }
 
     overlaps_.clear();
+    rounds_.clear();
+    for (const Track& track : tracks) {
+        rounds_.push_back(
+            {track.pose().t_px, track.radius_px(), track.can_hide(), track.can_be_hidden()});
+    }
     for (std::size_t i = 0; i < tracks.size(); ++i) {
+        const std::size_t before = overlaps_.size();
         for (std::size_t k = 0; k < tracks.size(); ++k) {
-            if (i != k && tracks[k].can_hide() && tracks[i].can_be_hidden() &&
-                may_overlap(tracks[i], tracks[k])) {
+            if (i != k && rounds_[k].can_hide && rounds_[i].can_be_hidden &&
+                may_overlap(rounds_[i], rounds_[k])) {
                 overlaps_.push_back({i, k});
             }
         }
-    }
-    for (std::size_t i = 0; i < tracks.size(); ++i) {
-        const bool overlaps = std::any_of(overlaps_.begin(), overlaps_.end(),
-                                          [&](const Overlap& pair) { return pair.inner == i; });
-        tracks[i].tally(t_us, overlaps);
+        tracks[i].tally(t_us, overlaps_.size() > before);
     }
     for (const auto& [i, k] : overlaps_) gather(tracks[i], tracks[k]);
     hidden_by_.resize(tracks.size());

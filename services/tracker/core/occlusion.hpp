@@ -45,6 +45,15 @@ class Occlusion {
 
     using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< Ids of the inner one and the other.
 
+    /// What tells at a glance whether two tracks may overlap.
+    struct Round {
+        Eigen::Vector2d t_px;
+        double radius_px = 0;
+        bool can_hide = false;
+        bool can_be_hidden = false;
+    };
+    [[nodiscard]] static bool may_overlap(const Round& one, const Round& other);
+
     struct Overlap {
         std::size_t inner;  ///< Indices.
         std::size_t other;
@@ -58,6 +67,7 @@ class Occlusion {
     std::int64_t next_us_ = 0;
     std::int64_t last_us_ = -1;
     std::map<Pair, Evidence> evidence_;
+    std::vector<Round> rounds_;  // by index
     std::vector<Overlap> overlaps_;
     std::vector<std::vector<std::size_t>> hidden_by_;  // by index: those in front of it
 };

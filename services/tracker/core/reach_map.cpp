@@ -10,7 +10,7 @@ void ReachMap::restart(Geometry geometry, std::size_t objects) {
     const auto cells = [](std::size_t px) { return (px >> cell_bits) + 1; };
     columns_ = cells(geometry.width);
     rows_ = cells(geometry.height);
-    words_ = (std::min(objects, most_objects) + 63) / 64;
+    words_ = (std::clamp(objects, std::size_t{1}, most_objects) + 63) / 64;
     cells_.assign(columns_ * rows_, Cell{});
     placed_.assign(objects, Reach{});
 }

@@ -21,7 +21,8 @@ struct Reach {
 /// an event asks only those around it.
 ///
 /// Cells of 16 px hold a bit for each object. An object is entered with a margin, and again only
-/// when it has left that: what place() costs in between is one comparison.
+/// when it has left all but the last of that: what place() costs in between is one comparison, and
+/// it need not be called while an object moves by less.
 class ReachMap {
  public:
     static constexpr std::size_t most_objects = 256;
@@ -32,7 +33,7 @@ class ReachMap {
     /// Where the object of this index reaches from now on.
     void place(std::size_t index, const Reach& reach) {
         const Reach& placed = placed_[index];
-        const double slack_px = placed.radius_px - reach.radius_px;
+        const double slack_px = placed.radius_px - reach.radius_px - reserve_px;
         const bool is_there =
             reach.radius_px >= 0 && slack_px >= 0 && slack_px < 4 * margin_px &&
             (reach.center_px - placed.center_px).squaredNorm() <= slack_px * slack_px;
@@ -43,11 +44,12 @@ class ReachMap {
     template <typename Ask>
     void for_each(std::uint16_t x, std::uint16_t y, const Ask& ask) const {
         const Cell& cell = cells_[(y >> cell_bits) * columns_ + (x >> cell_bits)];
-        for (std::size_t word = 0; word < words_; ++word) {
+        std::size_t word = 0;
+        do {
             for (std::uint64_t bits = cell[word]; bits != 0; bits &= bits - 1) {
                 ask(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
             }
-        }
+        } while (++word < words_);
     }
 
  private:
@@ -57,7 +59,8 @@ class ReachMap {
     void mark(std::size_t index, const Reach& reach, bool is_there);
 
     static constexpr int cell_bits = 4;
-    static constexpr double margin_px = 8;
+    static constexpr double margin_px = 10;
+    static constexpr double reserve_px = 2;
 
     std::size_t columns_ = 0;
     std::size_t rows_ = 0;

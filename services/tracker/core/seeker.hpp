@@ -25,15 +25,15 @@ class Seeker {
 
     /// Every event.
     void see(const Event& event) {
-        if (ring_.empty()) return;
         ring_[next_ % ring_events] = event;
         ++next_;
     }
 
-    /// Every event, before it is given to a track.
+    /// Before the first event at or after next_us() is given to a track.
     void work(std::int64_t t_us, std::span<Track> tracks) {
         if (t_us >= due_us_) go_on(t_us, tracks);
     }
+    [[nodiscard]] std::int64_t next_us() const { return due_us_; }
 
  private:
     static constexpr std::size_t ring_events = 16'384;
@@ -66,7 +66,7 @@ class Seeker {
     [[nodiscard]] static std::size_t wanted_events(const Track& track, double times);
 
     Geometry geometry_;
-    std::vector<Event> ring_;
+    std::vector<Event> ring_ = std::vector<Event>(ring_events);
     std::size_t next_ = 0;
     std::vector<Event> gathered_;
     std::vector<std::int64_t> fired_us_;  // by pixel, while gathering; never in between

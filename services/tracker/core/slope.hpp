@@ -19,13 +19,12 @@ class Slope {
     void restart() { *this = Slope(memory_s_); }
 
     /// Whether a sample at this time is wanted: 1/50 of the memory after the last.
-    [[nodiscard]] bool is_due(std::int64_t t_us) const {
-        return !(weight_ > 0) || static_cast<double>(t_us - t_us_) * 1e-6 >= memory_s_ / 50;
-    }
+    [[nodiscard]] bool is_due(std::int64_t t_us) const { return t_us >= due_us_ || !(weight_ > 0); }
 
     void add(std::int64_t t_us, const Values& values) {
         if (weight_ > 0) fade(static_cast<double>(t_us - t_us_) * 1e-6);
         t_us_ = t_us;
+        due_us_ = t_us + static_cast<std::int64_t>(std::ceil(memory_s_ / 50 * 1e6));
         weight_ += 1;  // at time 0, so the sums of time stay
         sum_ += values;
     }
@@ -50,6 +49,7 @@ class Slope {
 
     double memory_s_;
     std::int64_t t_us_ = 0;
+    std::int64_t due_us_ = 0;
     double weight_ = 0;
     double time_ = 0;
     double time2_ = 0;

@@ -95,6 +95,7 @@ void Track::make_for(const RegisteredObject& object) {
     outline_ = Outline(contour_);
     silhouette_ = Silhouette(contour_);
     vanishing_ = Vanishing(silhouette_, contour_.radius_px());
+    find_what_to_watch();
 }
 
 void Track::replace(const RegisteredObject& object) {
@@ -111,6 +112,7 @@ void Track::set_parameters(const ObjectParameters& parameters, const TrackerPara
     tracker_ = tracker;
     if (tracker.checks_pose < 0.5) doubt_.settle();
     estimator_->set_parameters(parameters);
+    find_what_to_watch();
 }
 
 void Track::restart(const RegisteredObject& object) {
@@ -122,6 +124,7 @@ void Track::restart(const RegisteredObject& object) {
     acquired_us_ = doubted_us_ = never_us;
     trial_until_us_ = -1;
     visible_share_ = 1;
+    find_what_to_watch();
     events_per_px2_ = 2;
     tallied_events_ = tallied_px2_ = tally_s_ = 0;
     tallied_us_ = -1;
@@ -162,7 +165,6 @@ void Track::begin_stream() {
 }
 
 void Track::remember_good(std::int64_t t_us) {
-    if (good_[0].t_us >= 0 && t_us - good_[0].t_us < keep_every_us) return;
     PoseRecord now;
     estimator_->describe(t_us, now);
     // What is less than its own uncertainty is none: an object that stands does not coast off.
@@ -186,11 +188,12 @@ void Track::lose_grip(std::int64_t t_us) {
     acquisition_->begin(coasted(t_us));
 }
 
-void Track::weigh(std::int64_t t_us) {
+void Track::weigh(std::int64_t t_us, bool is_noise) {
     const std::int64_t dt_us = std::clamp<std::int64_t>(t_us - weighed_us_, 0, longest_step_us);
     weighed_us_ = t_us;
-    const bool is_against = health_.is_settled() && !estimator_->sees_noise_alone() &&
+    const bool is_against = !is_noise && health_.is_settled() &&
                             health_.is_against(parameters_.let_go_sharpness, cover_->share());
+    if (!is_against && against_us_ == 0) return;
     against_us_ = std::max<std::int64_t>(against_us_ + (is_against ? dt_us : -2 * dt_us), 0);
     if (against_us_ > 0) doubted_us_ = t_us;
 }
@@ -370,16 +373,21 @@ Reach Track::reach(std::int64_t t_us) const {
 Approach Track::approach(const Event& event, std::int64_t since_same_us) {
     if (is_covered_ || (is_searching_ && !is_acquiring_)) return {};
     if (is_acquiring_) return acquisition_->approach(event);
-    if (vanishing_.can_tell()) watch_inside(event, since_same_us);
+    if (watches_inside_) watch_inside(event, since_same_us);
     const Approach near = estimator_->approach(event, since_same_us);
     distance_px_ = near.contour_px;
     piece_ = near.piece;
     return near;
 }
 
-void Track::watch_inside(const Event& event, std::int64_t since_same_us) {
+void Track::find_what_to_watch() {
+    sharp_px_ = parameters_.gate_px / 4;
     // Where another covers it in part, what comes from inside may be the other's.
-    if (is_partly_hidden() || !(parameters_.let_go_sharpness > 0)) return;
+    watches_inside_ =
+        vanishing_.can_tell() && !is_partly_hidden() && parameters_.let_go_sharpness > 0;
+}
+
+void Track::watch_inside(const Event& event, std::int64_t since_same_us) {
     vanishing_.see(event, estimator_->pose(), since_same_us);
     if (vanishing_.is_suspected()) doubted_us_ = event.t_us;
 }
@@ -392,10 +400,11 @@ bool Track::take(const Event& event, double weight) {
     } else {
         heard_us_ = event.t_us;
         is_silent_ = false;
-        health_.count(distance_px_, parameters_.gate_px, event.t_us,
-                      estimator_->sees_noise_alone());
-        vanishing_.count_own(event.t_us, distance_px_ < parameters_.gate_px / 4);
-        weigh(event.t_us);
+        const bool is_sharp = distance_px_ < sharp_px_;
+        const bool is_noise = estimator_->sees_noise_alone();
+        health_.count(is_sharp, event.t_us, is_noise);
+        vanishing_.count_own(event.t_us, is_sharp);
+        weigh(event.t_us, is_noise);
         if (parameters_.let_go_sharpness > 0 && against_us_ > let_go_after_us) {
             lose_grip(event.t_us);
             does_not_fit_ = !health_.is_fair();
@@ -408,13 +417,16 @@ bool Track::take(const Event& event, double weight) {
             return false;
         }
         if (!estimator_->take(weight)) return false;
-        if (piece_ >= 0 && distance_px_ < parameters_.gate_px / 4) {
+        if (piece_ >= 0 && is_sharp) {
             if (cover_->count(piece_)) {
                 cover_->close_window(outline_, estimator_->pose(), estimator_->velocity());
             }
             outline_.count(piece_, weight);
         }
-        if (health_.is_fair() && against_us_ == 0 && !doubt_.is_open()) remember_good(event.t_us);
+        const bool is_old = good_[0].t_us < 0 || event.t_us - good_[0].t_us >= keep_every_us;
+        if (is_old && health_.is_fair() && against_us_ == 0 && !doubt_.is_open()) {
+            remember_good(event.t_us);
+        }
     }
     last_event_t_us_ = event.t_us;
     ++events_used_;
@@ -423,7 +435,7 @@ bool Track::take(const Event& event, double weight) {
 
 void Track::deny() {
     // Counted like those taken: enough of them, and the object is not hidden there.
-    if (!is_acquiring_ && piece_ >= 0 && distance_px_ < parameters_.gate_px / 4) {
+    if (!is_acquiring_ && piece_ >= 0 && distance_px_ < sharp_px_) {
         outline_.count(piece_, 1);
     }
 }
@@ -498,6 +510,7 @@ void Track::see(std::int64_t t_us) {
         if (!part.is_hidden) seen += shows;
     }
     visible_share_ = whole > 0 ? seen / whole : 1;
+    find_what_to_watch();
     estimator_->set_visible_share(std::max(visible_share_, covered_share));
     // Held by little of its contour it may have slid along what was seen of it.
     if (emerges_ && emerged_us_ < 0 && visible_share_ > checked_share && can_be_hidden()) {

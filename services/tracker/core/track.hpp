@@ -131,8 +131,10 @@ class Track {
     /// Of its contour, in the mean.
     [[nodiscard]] double speed_px_s() const;
     /// Whether the events, now included, speak against the pose.
-    void weigh(std::int64_t t_us);
+    void weigh(std::int64_t t_us, bool is_noise);
     void lose_grip(std::int64_t t_us);
+    /// To be called when what it depends on has changed.
+    void find_what_to_watch();
     /// An event near the object: whether all of it fires at once.
     void watch_inside(const Event& event, std::int64_t since_same_us);
     void acquire(std::int64_t t_us);
@@ -169,6 +171,8 @@ class Track {
     double tally_s_ = 0;  // what the last one was over
     std::int64_t tallied_us_ = -1;
     double visible_share_ = 1;
+    bool watches_inside_ = false;
+    double sharp_px_ = 0;  // nearer than this an event lies on the contour
     std::int32_t piece_ = -1;
     bool is_covered_ = false;
     bool is_adrift_ = false;  // since a new stream began: it may be anywhere

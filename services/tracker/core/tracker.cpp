@@ -24,6 +24,10 @@ constexpr std::int64_t max_t_us = std::int64_t{1} << 53;
 
 constexpr std::int64_t round_us = 500;
 
+// Where a track is, is noted in the map after so many of its events; ReachMap::place() has room for
+// what they move it.
+constexpr std::uint32_t placed_every_events = 8;
+
 // How far ahead of the event in hand the pixels of those to come are fetched from memory.
 constexpr std::size_t prefetched = 16;
 
@@ -44,9 +48,9 @@ class Tracker::Impl {
           grid(options.pose_rate_hz, options.max_poses_per_s) {
         set_strategy(preset.strategy, preset.strategy_parameters);
         tells_occlusion = preset.tracker.tells_occlusion >= 0.5;
-        claims.reserve(options.max_objects);
+        claims.resize(options.max_objects);
+        claimants.resize(options.max_objects);
         ambiguous.reserve(options.max_objects);
-        claimants.reserve(options.max_objects);
     }
 
     /// A call's effect on the tracks, held back until the last processed time is over.
@@ -59,6 +63,7 @@ class Tracker::Impl {
 
     void hold(std::function<void()> change) {
         changes.push_back({effective_time_us(), std::move(change)});
+        wake_us = 0;
     }
 
     // `now_us` begins: what was called for before it takes effect, in turn with the poses due.
@@ -104,19 +109,23 @@ class Tracker::Impl {
         return true;
     }
 
+    // What is done from time to time, before the first event at or after wake_us.
+    void wake(std::int64_t t_us) {
+        if (tells_occlusion && t_us >= occlusion.next_us()) occlusion.look(t_us, tracks);
+        seeker.work(t_us, tracks);
+        if (t_us >= next_round_us) go_round(t_us);
+        wake_us = std::min({grid.next_us(), next_round_us, seeker.next_us()});
+        if (tells_occlusion) wake_us = std::min(wake_us, occlusion.next_us());
+        if (!changes.empty()) wake_us = std::min(wake_us, changes.front().effective_time_us);
+    }
+
     // The paper's algorithm, for one event.
     void process(const Event& event, PoseSink& sink) {
         const std::int64_t since_same_us = recent.note(event);
-        if (tells_occlusion && event.t_us >= occlusion.next_us()) {
-            occlusion.look(event.t_us, tracks);
-        }
-        seeker.work(event.t_us, tracks);
         seeker.see(event);
-        if (event.t_us >= next_round_us) go_round(event.t_us);
 
         // The objects it may belong to, by the nearest place of each model (3.1).
-        claims.clear();
-        claimants.clear();
+        std::size_t count = 0;
         reach_map.for_each(event.x, event.y, [&](std::size_t i) {
             Track& track = tracks[i];
             const Approach near = track.approach(event, since_same_us);
@@ -125,21 +134,31 @@ class Tracker::Impl {
                 track.deny();
                 return;
             }
-            claims.push_back({track.object_id(), near.distance_px, 0, near.clutter});
-            claimants.push_back(i);
+            claims[count] = {track.object_id(), near.distance_px, 0, near.clutter, 0};
+            claimants[count++] = i;
         });
+        if (count == 0) {
+            ++counters.events_unused;
+            return;
+        }
 
         // Whose it is (section 3.3), and the steps that follow from it (3.2).
-        give(event);
+        if (count == 1 && !strategy_listens) {
+            claims[0].weight = 1;
+        } else {
+            give(event, {claims.data(), count});
+        }
         bool is_used = false;
-        for (std::size_t i = 0; i < claims.size(); ++i) {
+        for (std::size_t i = 0; i < count; ++i) {
             if (!(claims[i].weight > 0)) continue;
             Track& track = tracks[claimants[i]];
             const bool is_taken = track.take(event, claims[i].weight);
-            reach_map.place(claimants[i], track.reach(next_round_us));
+            if (++taken_count % placed_every_events == 0) {
+                reach_map.place(claimants[i], track.reach(next_round_us));
+            }
             if (!is_taken) continue;
             is_used = true;
-            strategy->used(event, claims[i]);
+            if (strategy_listens) strategy->used(event, claims[i]);
             if (options.emit_updates) {
                 sink.update({claims[i].object_id, stream_id, event.t_us, track.pose()});
             }
@@ -159,46 +178,47 @@ class Tracker::Impl {
     void restart_round() {
         reach_map.restart(geometry, tracks.size());
         next_round_us = 0;
+        wake_us = 0;
     }
 
     // Sets the weights of the claims: an event that is ambiguous, near two objects or more, is the
     // strategy's to give, any other the closest object's.
-    void give(const Event& event) {
-        if (claims.empty()) return;
-        if (claims.size() > 1) {
-            for (std::size_t i = 0; i < claims.size(); ++i) {
-                claims[i].likelihood = tracks[claimants[i]].likelihood();
-            }
-        }
-        strategy->near(event, claims);
-        if (claims.size() < 2) {
-            claims[0].weight = 1;
-            strategy->confirm(event, claims[0]);
+    void give(const Event& event, std::span<Claim> given_claims) {
+        if (given_claims.size() < 2) {
+            given_claims[0].weight = 1;
+            strategy->near(event, given_claims);
+            strategy->confirm(event, given_claims[0]);
             return;
         }
+        for (std::size_t i = 0; i < given_claims.size(); ++i) {
+            given_claims[i].likelihood = tracks[claimants[i]].likelihood();
+        }
+        strategy->near(event, given_claims);
         const double near_px = ambiguity_px;
         const auto is_near = [&](const Claim& claim) { return claim.distance_px <= near_px; };
-        const auto near_count = std::count_if(claims.begin(), claims.end(), is_near);
+        const auto near_count = std::count_if(given_claims.begin(), given_claims.end(), is_near);
         if (near_count < 2) {
-            Closest().assign(event, claims);
-            for (Claim& claim : claims) {
+            Closest().assign(event, given_claims);
+            for (Claim& claim : given_claims) {
                 if (claim.weight > 0) strategy->confirm(event, claim);
             }
             return;
         }
-        if (static_cast<std::size_t>(near_count) == claims.size()) {
-            strategy->assign(event, claims);
+        if (static_cast<std::size_t>(near_count) == given_claims.size()) {
+            strategy->assign(event, given_claims);
             return;
         }
         ambiguous.clear();
-        std::copy_if(claims.begin(), claims.end(), std::back_inserter(ambiguous), is_near);
+        std::copy_if(given_claims.begin(), given_claims.end(), std::back_inserter(ambiguous),
+                     is_near);
         strategy->assign(event, ambiguous);
         auto next = ambiguous.begin();
-        for (Claim& claim : claims) claim.weight = is_near(claim) ? (next++)->weight : 0;
+        for (Claim& claim : given_claims) claim.weight = is_near(claim) ? (next++)->weight : 0;
     }
 
     void set_strategy(StrategyKind kind, const StrategyParameters& parameters) {
         strategy = make_strategy(kind, parameters);
+        strategy_listens = strategy->listens();
         ambiguity_px = parameters.ambiguity_px;
     }
 
@@ -219,6 +239,7 @@ class Tracker::Impl {
     std::deque<Change> changes;
     RecentPixels recent;
     std::unique_ptr<Strategy> strategy;
+    bool strategy_listens = false;
     double ambiguity_px = 3;
     std::vector<Track> tracks;  // in order of ids
     bool tells_occlusion = true;
@@ -226,6 +247,8 @@ class Tracker::Impl {
     Seeker seeker;
     ReachMap reach_map;
     std::int64_t next_round_us = 0;
+    std::int64_t wake_us = 0;  // not before it is there anything to do but to take events
+    std::uint32_t taken_count = 0;
 
     // Of the event in hand; kept to allocate nothing an event.
     std::vector<Claim> claims;
@@ -273,9 +296,11 @@ void Tracker::process(std::span<const Event> events, PoseSink& sink) {
         if (i + prefetched < events.size()) impl_->recent.prefetch(events[i + prefetched]);
         ++impl_->counters.events_in;
         if (!impl_->accepts(event)) continue;
-        if (event.t_us > impl_->last_t_us) impl_->reach(event.t_us, sink);
+        const bool is_due = event.t_us >= impl_->wake_us;
+        if (is_due) impl_->reach(event.t_us, sink);
         impl_->last_t_us = event.t_us;
         impl_->grid.event_at(event.t_us);
+        if (is_due) impl_->wake(event.t_us);
         impl_->process(event, sink);
     }
 }

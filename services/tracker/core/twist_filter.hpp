@@ -46,10 +46,15 @@ class TwistFilter {
         covariance_.template bottomRightCorner<leads, leads>() = covariance_px2;
     }
 
-    /// dt_s later, of which it moved for moving_s; noise: the spectral density of the twist's
-    /// random walk, a component each.
+    /// A prediction of dt_s: it moved for moving_s of it …
     void predict(double dt_s, double moving_s, const Step& noise) {
-        move(moving_s, pose_, twist_);
+        advance(moving_s);
+        spread(dt_s, noise);
+    }
+    void advance(double moving_s) { move(moving_s, pose_, twist_); }
+    /// … and is known by that much less; noise: the spectral density of the twist's random walk, a
+    /// component each.
+    void spread(double dt_s, const Step& noise) {
         auto pp = covariance_.template topLeftCorner<dof, dof>();
         auto vp = covariance_.template block<dof, dof>(dof, 0);
         auto bp = covariance_.template block<leads, dof>(2 * dof, 0);

@@ -33,6 +33,7 @@ class Spatiotemporal : public Strategy {
     explicit Spatiotemporal(const StrategyParameters& parameters) : parameters_(parameters) {}
 
     void near(const Event& event, std::span<const Claim> claims) override;
+    [[nodiscard]] bool listens() const override { return true; }
     void assign(const Event& event, std::span<Claim> claims) override;
     void confirm(const Event& event, Claim& claim) override;
     void used(const Event& event, const Claim& claim) override;

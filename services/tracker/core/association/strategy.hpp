@@ -26,6 +26,10 @@ class Strategy {
  public:
     virtual ~Strategy() = default;
 
+    /// Whether near(), confirm() and used() do anything: a strategy that judges the event alone
+    /// need not be asked about those near one object.
+    [[nodiscard]] virtual bool listens() const { return false; }
+
     /// Hears of every event within the gate of an object or more, before it is given.
     virtual void near(const Event& event, std::span<const Claim> claims) {
         static_cast<void>(event);

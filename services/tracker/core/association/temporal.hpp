@@ -14,6 +14,7 @@ class Temporal : public Strategy {
  public:
     explicit Temporal(std::size_t events) : events_(events) {}
 
+    [[nodiscard]] bool listens() const override { return true; }
     void assign(const Event& event, std::span<Claim> claims) override;
     void used(const Event& event, const Claim& claim) override;
     void forget(std::uint32_t object_id) override;
