@@ -59,8 +59,9 @@ void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
     overlaps_.clear();
     rounds_.clear();
     for (const Track& track : tracks) {
-        rounds_.push_back(
-            {track.pose().t_px, track.radius_px(), track.can_hide(), track.can_be_hidden()});
+        const Pose pose = track.pose();
+        rounds_.push_back({pose.t_px, track.contour().radius_px() * largest_scale(pose.a),
+                           track.can_hide(), track.can_be_hidden()});
     }
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const std::size_t before = overlaps_.size();
@@ -97,9 +98,10 @@ void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
 
 void Occlusion::gather(const Track& one, const Track& other) {
     Evidence& evidence = evidence_[{one.object_id(), other.object_id()}];
+    const Pose pose = one.pose();
     for (const Outline::Part& part : one.outline().parts()) {
-        const Eigen::Vector2d arm = one.pose().a * part.middle_px;
-        if (image_depth_px(other, one.pose().t_px + arm) < told_depth_px) continue;
+        const Eigen::Vector2d arm = pose.a * part.middle_px;
+        if (image_depth_px(other, pose.t_px + arm) < told_depth_px) continue;
         evidence.expected += one.expected_events(part, arm);
         evidence.observed += part.events;
     }

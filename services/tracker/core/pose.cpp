@@ -29,6 +29,13 @@ double theta_rad(const Eigen::Matrix2d& a) {
 double scale_x(const Eigen::Matrix2d& a) { return std::hypot(a(0, 0), a(1, 0)); }
 double scale_y(const Eigen::Matrix2d& a) { return std::hypot(a(0, 1), a(1, 1)); }
 
+double largest_scale(const Eigen::Matrix2d& a) {
+    // Singular values of a 2×2 matrix from its norm and determinant.
+    const double twice = 2 * std::abs(a.determinant());
+    const double norm2 = a.squaredNorm();
+    return (std::sqrt(norm2 + twice) + std::sqrt(std::max(0.0, norm2 - twice))) / 2;
+}
+
 Result<void> check(const Pose& pose, TransformKind kind) {
     if (!pose.t_px.allFinite() || !pose.a.allFinite()) {
         return fail("pose: a component is not a finite number");
@@ -38,11 +45,8 @@ Result<void> check(const Pose& pose, TransformKind kind) {
     }
     const double determinant = pose.a.determinant();
     if (!(determinant > 0)) return fail("pose: A mirrors or flattens the shape");
-    // Singular values of a 2×2 matrix from its norm and determinant.
-    const double sum = std::sqrt(pose.a.squaredNorm() + 2 * determinant);
-    const double difference = std::sqrt(std::max(0.0, pose.a.squaredNorm() - 2 * determinant));
-    const double largest = (sum + difference) / 2;
-    const double smallest = (sum - difference) / 2;
+    const double largest = largest_scale(pose.a);
+    const double smallest = determinant / largest;
     if (!(smallest >= min_scale) || !(largest <= max_scale)) {
         return fail("pose: A scales by a factor that is not within 0.01 to 100");
     }

@@ -42,6 +42,8 @@ double theta_rad(const Eigen::Matrix2d& a);
 /// Lengths that A gives to the model's own unit axes: the columns' norms.
 double scale_x(const Eigen::Matrix2d& a);
 double scale_y(const Eigen::Matrix2d& a);
+/// By how much A makes anything longer at most: its larger singular value.
+double largest_scale(const Eigen::Matrix2d& a);
 
 /// The bounds of a pose that the tracker takes: |T| ≤ 100,000 px and both singular values of A
 /// within 0.01 … 100, A without a reflection.

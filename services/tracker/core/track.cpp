@@ -454,17 +454,21 @@ bool Track::can_hide() const {
 
 bool Track::can_be_hidden() const { return !is_searching_ && !is_acquiring_; }
 
-double Track::across_px_s(const Outline::Part& part, const Eigen::Vector2d& arm_px) const {
-    const Velocity v = is_covered_ ? covered_.velocity : estimator_->velocity();
-    const Eigen::Vector2d speed = Eigen::Vector2d(v.vx_px_s, v.vy_px_s) +
-                                  v.omega_rad_s * Eigen::Vector2d(-arm_px.y(), arm_px.x()) +
-                                  (v.scale_x_rate_per_s + v.scale_y_rate_per_s) / 2 * arm_px;
-    const Eigen::Vector2d along = pose().a * part.along_px;
+Track::Going Track::going() const {
+    return {pose().a, is_covered_ ? covered_.velocity : estimator_->velocity()};
+}
+
+double Track::Going::across_px_s(const Outline::Part& part, const Eigen::Vector2d& arm_px) const {
+    const Eigen::Vector2d speed =
+        Eigen::Vector2d(velocity.vx_px_s, velocity.vy_px_s) +
+        velocity.omega_rad_s * Eigen::Vector2d(-arm_px.y(), arm_px.x()) +
+        (velocity.scale_x_rate_per_s + velocity.scale_y_rate_per_s) / 2 * arm_px;
+    const Eigen::Vector2d along = a * part.along_px;
     return std::abs(along.x() * speed.y() - along.y() * speed.x());
 }
 
 double Track::expected_events(const Outline::Part& part, const Eigen::Vector2d& arm_px) const {
-    return events_per_px2_ * across_px_s(part, arm_px) * tally_s_;
+    return events_per_px2_ * going().across_px_s(part, arm_px) * tally_s_;
 }
 
 void Track::tally(std::int64_t t_us, bool at_once) {
@@ -481,10 +485,11 @@ void Track::tally(std::int64_t t_us, bool at_once) {
         return;
     }
     if (is_searching_ || is_acquiring_ || !health_.is_fair()) return;
+    const Going now = going();
     for (const Outline::Part& part : outline_.parts()) {
         if (part.is_hidden) continue;
         tallied_events_ += part.events;
-        tallied_px2_ += across_px_s(part, pose().a * part.middle_px) * dt_s;
+        tallied_px2_ += now.across_px_s(part, now.a * part.middle_px) * dt_s;
     }
     if (tallied_events_ > tally_events) {
         tallied_px2_ *= tally_events / tallied_events_;
@@ -503,9 +508,10 @@ void Track::see(std::int64_t t_us) {
     double whole = 0;
     const Velocity v = is_covered_ ? covered_.velocity : estimator_->velocity();
     const double speed_px_s = std::hypot(v.vx_px_s, v.vy_px_s, v.omega_rad_s * radius_px()) + 1e-9;
+    const Going now = going();
     for (const Outline::Part& part : outline_.parts()) {
-        const double shows = across_px_s(part, pose().a * part.middle_px) / speed_px_s +
-                             0.1 * (pose().a * part.along_px).norm();
+        const double shows = now.across_px_s(part, now.a * part.middle_px) / speed_px_s +
+                             0.1 * (now.a * part.along_px).norm();
         whole += shows;
         if (!part.is_hidden) seen += shows;
     }

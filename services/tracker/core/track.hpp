@@ -141,8 +141,16 @@ class Track {
     void cover(std::int64_t t_us);
     void uncover(std::int64_t t_us);
     void give_up(std::int64_t t_us);
-    [[nodiscard]] double across_px_s(const Outline::Part& part,
-                                     const Eigen::Vector2d& arm_px) const;
+    /// The pose's A and the velocity, for all parts of the outline.
+    struct Going {
+        Eigen::Matrix2d a;
+        Velocity velocity;
+
+        /// How fast a part with this arm (image) moves across itself, times its length.
+        [[nodiscard]] double across_px_s(const Outline::Part& part,
+                                         const Eigen::Vector2d& arm_px) const;
+    };
+    [[nodiscard]] Going going() const;
     [[nodiscard]] Pose coasted(std::int64_t t_us) const;
     [[nodiscard]] TrackState state_at(std::int64_t t_us) const;
     [[nodiscard]] double confidence_at(std::int64_t t_us) const;
