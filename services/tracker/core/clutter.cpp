@@ -18,6 +18,7 @@ constexpr double bins_remembered = 40;
 constexpr double more_than_noise = 1.4;
 constexpr double swamping_hz = 200;  // a pixel
 constexpr double swamped_share = 0.25;
+constexpr double surfaced_share = 0.5;
 const double log_more_than_noise = std::log(more_than_noise);
 constexpr double surely = 12;  // a log likelihood
 
@@ -74,7 +75,7 @@ void Clutter::restart() {
     usual_near_hz_ = 0;
     bin_events_ = bin_mean_ = bin_variance_ = bins_ = 0;
     bin_end_us_ = 0;
-    clutter_hz_ = 0;
+    clutter_hz_ = noise_hz_ = 0;
     remembered_ = 0;
     new_far_ = far_hz_ = {};
     near_count_ = near_time_us_ = slack_us_ = 0;
@@ -220,8 +221,9 @@ void Clutter::fold(std::int64_t t_us) {
     clutter_hz_ = clutter_hz;
     const double near_px2 = (whole_.near_width_px[0] + whole_.near_width_px[1]) * near_px;
     const double of_px_hz = clutter_hz / std::max(near_px2, 1.0);
+    noise_hz_ = of_px_hz;
     is_swamped_ = is_steady() && of_px_hz > (is_swamped_ ? 0.75 : 1) * swamping_hz &&
-                  whole_.own_share < swamped_share;
+                  whole_.own_share < (is_swamped_ ? surfaced_share : swamped_share);
     const double own_hz = std::max({near_hz - clutter_hz, 0.1 * near_hz, 1e-3});
     for (std::size_t side = 0; side < 2; ++side) standing_density_[side] = beside_hz[side] / own_hz;
     new_far_ = {};

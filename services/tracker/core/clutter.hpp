@@ -67,8 +67,22 @@ class Clutter {
     /// steady as chance. (The edges of other things come and go.)
     [[nodiscard]] bool is_noise_alone() const { return is_noise_alone_ && is_steady(); }
 
+    /// What is told for noise on the contour and beside it, Hz a px², if is_steady(): …
+    [[nodiscard]] double noise_hz() const { return noise_hz_; }
+
+    /// … what comes beside it comes as chance has it, everywhere alike; not as other things that
+    /// come and go on one side.
+    [[nodiscard]] bool is_steady() const {
+        const double enough = bin_mean_ > many_events ? least_bins_of_many : least_bins;
+        if (bins_ < enough || bin_mean_ < few_events) return false;
+        const double left = far_hz_[0] * whole_.far_area_px2[1];
+        const double right = far_hz_[1] * whole_.far_area_px2[0];
+        return bin_variance_ < most_dispersion * bin_mean_ && left < most_uneven * right &&
+               right < most_uneven * left;
+    }
+
     /// Whether steady noise of 200 Hz a pixel and more leaves next to nothing of what is on the
-    /// contour to the object.
+    /// contour to the object; until half of it is.
     [[nodiscard]] bool is_swamped() const { return is_swamped_; }
 
  private:
@@ -98,15 +112,6 @@ class Clutter {
     [[nodiscard]] const Part& part_of(std::int32_t piece) const {
         return parts_[facing_[static_cast<std::size_t>(piece)]];
     }
-    /// As chance has it, everywhere alike; not as other things that come and go on one side.
-    [[nodiscard]] bool is_steady() const {
-        const double enough = bin_mean_ > many_events ? least_bins_of_many : least_bins;
-        if (bins_ < enough || bin_mean_ < few_events) return false;
-        const double left = far_hz_[0] * whole_.far_area_px2[1];
-        const double right = far_hz_[1] * whole_.far_area_px2[0];
-        return bin_variance_ < most_dispersion * bin_mean_ && left < most_uneven * right &&
-               right < most_uneven * left;
-    }
     void weigh_noise();
     void find_facings(const Contour& contour);
     void fold(std::int64_t t_us);
@@ -124,6 +129,7 @@ class Clutter {
     double for_noise_ = 0;
     bool is_noise_alone_ = false;
     bool is_swamped_ = false;
+    double noise_hz_ = 0;
     double usual_near_hz_ = 0;
     bool is_quiet_ = false;  // far fewer events than usual: most are not its own
     double clutter_hz_ = 0;

@@ -63,6 +63,9 @@ class Estimator {
     /// It does not move any more, until events tell that it does.
     virtual void stand_still() {}
     [[nodiscard]] virtual bool sees_noise_alone() const { return false; }
+    /// Whether among strong noise the object was looked for nearby and plainly is where it is
+    /// thought to be.
+    [[nodiscard]] virtual bool stands_out() const { return false; }
     /// Whether there is so much noise that nothing can be followed in it.
     [[nodiscard]] virtual bool is_swamped() const { return false; }
 

@@ -39,8 +39,12 @@ constexpr double resumed_turn_sigma_px = 0.4;
 constexpr double resumed_speed_sigma_px_s = 5;
 constexpr double bound_settles = 0.99;  // an event: the bound of the pose's σ back to the usual
 constexpr double most_pose_sigma_px = 1.2;
-constexpr double onset_px2 = 0.5;     // variance, when it begins to move out of noise
-constexpr double onset_px_s = 200;    // σ of its speed then
+constexpr double onset_px2 = 0.5;   // variance, when it begins to move out of noise
+constexpr double onset_px_s = 200;  // σ of its speed then
+// Among strong noise.
+constexpr double least_visible_share = 0.7;
+constexpr double sighted_sigma_px = 0.6;
+constexpr double sighted_speed_sigma_px_s = 100;
 constexpr double silent_events = 10;  // expected and not come: it stands still
 // The mean goes on with every event, what is known of it (its covariance, and how it can turn away)
 // after so much of a way or time.
@@ -57,7 +61,11 @@ float normal_density(double r2, double per_variance) {
 
 template <TransformKind kind>
 KalmanEstimator<kind>::KalmanEstimator(const Contour& contour, const ObjectParameters& parameters)
-    : contour_(contour), parameters_(parameters), bend_(contour_), offsets_(contour_, kind) {
+    : contour_(contour),
+      parameters_(parameters),
+      bend_(contour_),
+      offsets_(contour_, kind),
+      watch_(contour_) {
     restart({}, {});
 }
 
@@ -74,6 +82,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     lead_prior_.restart();
     clock_.restart();
     clutter_.restart();
+    watch_.restart(pose, velocity);
     stands_still_ = false;
     backlash_.restart(contour_.pieces().pieces().size());
     bend_.restart();
@@ -143,7 +152,7 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
 
     // Among noise alone nothing tells where it goes: it stands still until there is more.
     const bool stood_still = stands_still_;
-    stands_still_ = clutter_.is_noise_alone();
+    stands_still_ = sees_noise_alone();
     if (stands_still_) {
         filter_.slow_down(0);
         clock_.restart_rate();
@@ -218,6 +227,23 @@ void KalmanEstimator<kind>::spread(double dt_s) {
     }
 }
 
+template <TransformKind kind>
+void KalmanEstimator<kind>::look_out(std::int64_t t_us) {
+    const Coast own{t_us, filter_.pose(), velocity()};
+    const auto to = watch_.look(own, clutter_, visible_share_ > least_visible_share,
+                                size_.gyration_px, size_.extent_px);
+    if (!to) return;
+    const double per_px = 1 / size_.gyration_px;
+    Step pose_sigma = Step::Constant(sighted_sigma_px * per_px);
+    pose_sigma.template head<2>().setConstant(sighted_sigma_px);
+    Step twist_sigma = Step::Constant(sighted_speed_sigma_px_s * per_px);
+    twist_sigma.template head<2>().setConstant(sighted_speed_sigma_px_s);
+    filter_.restart(to->pose, M::twist_of(to->velocity), pose_sigma, twist_sigma);
+    // It did not go this way event by event.
+    clock_.begin_way();
+    way_begin_ = to->pose;
+}
+
 // The pose of the last near event and how far the object can have gone since tell.
 template <TransformKind kind>
 double KalmanEstimator<kind>::reach_px(std::int64_t t_us) const {
@@ -288,6 +314,8 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
         sampled_for_area_ = area;
     }
     clutter_.reach(event.t_us);
+    if (watch_.is_due(event.t_us)) look_out(event.t_us);
+    if (watch_.is_on()) watch_.see(event.x, event.y);
     Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - pose.t_px;
     if constexpr (is_bent) {
         // To where it would be, were the model not bent.
@@ -354,7 +382,7 @@ bool KalmanEstimator<kind>::take(double weight) {
     const double noise =
         likelihood * near_noise * far_noise /
         (measured_.near_likelihood * far_noise + measured_.far_likelihood * near_noise);
-    filter_.correct(measured_.row, r, measured_.row.h_p_h + noise, share);
+    filter_.correct(measured_.row, r, measured_.row.h_p_h + noise, share, watch_.is_on());
     if constexpr (is_bent) {
         bend_.correct(measured_.along_bend, r, measured_.row.h_p_h + noise, share);
     }

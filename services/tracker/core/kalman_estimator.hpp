@@ -8,6 +8,7 @@
 #include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/event_clock.hpp"
 #include "services/tracker/core/lead_prior.hpp"
+#include "services/tracker/core/noise_watch.hpp"
 #include "services/tracker/core/twist_filter.hpp"
 
 namespace pursuit::tracker {
@@ -32,8 +33,13 @@ class KalmanEstimator : public Estimator {
     }
     bool take(double weight) override;
     [[nodiscard]] double reach_px(std::int64_t t_us) const override;
-    void stand_still() override { filter_.slow_down(0); }
-    [[nodiscard]] bool sees_noise_alone() const override { return clutter_.is_noise_alone(); }
+    void stand_still() override {
+        if (!watch_.is_on()) filter_.slow_down(0);
+    }
+    [[nodiscard]] bool sees_noise_alone() const override {
+        return watch_.is_on() ? watch_.is_unseen() : clutter_.is_noise_alone();
+    }
+    [[nodiscard]] bool stands_out() const override { return watch_.is_sure(); }
     [[nodiscard]] bool is_swamped() const override { return clutter_.is_swamped(); }
     [[nodiscard]] const Pose& pose() const override { return filter_.pose(); }
     [[nodiscard]] Velocity velocity() const override {
@@ -63,6 +69,8 @@ class KalmanEstimator : public Estimator {
     }
     /// Of the variance of a component of a step: its own unit for 1 px of the contour, squared.
     [[nodiscard]] double unit2(int i) const { return i < 2 ? 1 : size_.per_gyration2; }
+    /// Among strong noise, every few ms.
+    void look_out(std::int64_t t_us);
     void measure_size();
     [[nodiscard]] double effective_length_px() const;
 
@@ -111,6 +119,7 @@ class KalmanEstimator : public Estimator {
     Backlash backlash_;
     Bend bend_;
     ContourOffsets offsets_;
+    NoiseWatch watch_;
     Measurement measured_{};
     Pose way_begin_;
     bool stands_still_ = false;  // among noise

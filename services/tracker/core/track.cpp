@@ -411,6 +411,7 @@ bool Track::take(const Event& event, double weight) {
             return false;
         }
         if (health_.is_settled() && health_.is_fair()) emerged_us_ = -1;
+        if (doubt_.is_open() && estimator_->stands_out()) doubt_.settle();
         // What is left in a quiet time is mostly noise: it does not move the pose.
         if (health_.is_quiet()) {
             estimator_->stand_still();

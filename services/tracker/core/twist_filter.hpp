@@ -94,12 +94,16 @@ class TwistFilter {
     }
 
     /// Corrects by the residual r with the given total variance; weight 0 … 1 scales gain and
-    /// reduction.
-    void correct(const Row& row, double residual_px, double variance_px2, double weight) {
-        const State gain = row.p_h * (weight / variance_px2);
+    /// reduction: the measurement is one of this state with that probability. Where many are not,
+    /// that it may or may not be spreads the estimate (Bar-Shalom's probabilistic data
+    /// association): without that, events of noise alone would make it sure of itself.
+    void correct(const Row& row, double residual_px, double variance_px2, double weight,
+                 bool is_doubtful = false) {
+        State gain = row.p_h * (weight / variance_px2);
         M::apply(gain.template head<dof>() * residual_px, pose_);
         twist_ += gain.template segment<dof>(dof) * residual_px;
         lead_px_ += gain.template tail<leads>() * residual_px;
+        if (is_doubtful) gain *= 1 - (1 - weight) * residual_px * residual_px / variance_px2;
         reduce(gain, row.p_h, std::make_integer_sequence<int, size>());
     }
 

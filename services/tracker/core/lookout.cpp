@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/lookout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+namespace pursuit::tracker {
+namespace {
+
+constexpr double most_samples = 64;
+constexpr int margin_px = 8;  // that the object moves before the window follows
+constexpr double slow_px_s = 30;
+constexpr double longest_s = 1;
+
+// Of a place before it is moved uphill.
+constexpr double worth_a_climb_z = 3.2;
+
+// Beyond chance, with the number of places that are as near; and beyond what the own place shows.
+constexpr double beyond_chance_z = 4.7;
+constexpr double farther_z_per_px = 0.13;
+constexpr double beyond_own_z = 2;
+constexpr double beyond_own_times = 1.3;
+// Without the best quarter of the contour: an edge of something else lies along a part of it.
+constexpr std::size_t best_parts = 2;
+constexpr double least_rest_z = 2;
+constexpr double least_rest_share = 0.25;
+
+// The steps uphill; of the velocity as far as they take it in the time looked at.
+constexpr std::array<double, 3> steps_px{1, 0.5, 0.25};
+constexpr int most_rounds = 3;
+constexpr double velocity_steps_per_s = 80;
+
+std::int64_t age_us(std::size_t slice) {
+    return static_cast<std::int64_t>(slice) * Lookout::every_us + Lookout::every_us / 2;
+}
+
+}  // namespace
+
+Lookout::Lookout(const Contour& contour) : scores_(turns * places * places) {
+    const double step_px = std::max(contour.length_px() / most_samples, 1e-9);
+    double along_px = step_px / 2;
+    for (const Piece& piece : contour.pieces().pieces()) {
+        const Eigen::Vector2d from(piece.ax, piece.ay);
+        const Eigen::Vector2d way = Eigen::Vector2d(piece.bx, piece.by) - from;
+        const double length_px = way.norm();
+        for (; along_px < length_px; along_px += step_px) {
+            samples_.push_back(from + way * (along_px / length_px));
+        }
+        along_px -= length_px;
+    }
+}
+
+void Lookout::place(const Eigen::Vector2d& center_px, double extent_px) {
+    const int half = static_cast<int>(std::ceil(extent_px)) + reach_px + 2 * margin_px;
+    const int left = static_cast<int>(std::lround(center_px.x())) - half;
+    const int top = static_cast<int>(std::lround(center_px.y())) - half;
+    const auto side = static_cast<unsigned>(2 * half + 1);
+    if (side == side_ && std::abs(left - left_) <= margin_px && std::abs(top - top_) <= margin_px) {
+        return;
+    }
+    for (std::vector<float>& counts : slices_) {
+        std::vector<float> moved(std::size_t{side} * side);
+        for (unsigned row = 0; row < side; ++row) {
+            const auto old_row = static_cast<unsigned>(static_cast<int>(row) + top - top_);
+            if (old_row >= side_) continue;
+            for (unsigned column = 0; column < side; ++column) {
+                const auto old = static_cast<unsigned>(static_cast<int>(column) + left - left_);
+                if (old < side_) moved[row * side + column] = counts[old_row * side_ + old];
+            }
+        }
+        counts = std::move(moved);
+    }
+    left_ = left;
+    top_ = top;
+    side_ = side;
+    half_px_ = half;
+    fresh_.assign(slices_[0].size(), 0);
+    work_.assign(slices_[0].size(), 0);
+}
+
+void Lookout::close_slice() {
+    if (side_ == 0) return;
+    std::rotate(slices_.begin(), slices_.end() - 1, slices_.end());
+    // By 1 2 1 across and down: as far as events stray.
+    const std::size_t size = fresh_.size();
+    for (std::size_t i = 1; i + 1 < size; ++i) {
+        work_[i] = static_cast<float>(fresh_[i - 1] + 2 * fresh_[i] + fresh_[i + 1]);
+    }
+    std::vector<float>& counts = slices_[0];
+    for (std::size_t i = side_; i + side_ < size; ++i) {
+        counts[i] = (work_[i - side_] + 2 * work_[i] + work_[i + side_]) / 16;
+    }
+    fill_up(counts);
+    std::fill(fresh_.begin(), fresh_.end(), std::uint16_t{0});
+}
+
+// No events come from where they are not asked for, and from beyond the image: as many as elsewhere
+// would be, lest places that reach there seem emptier than others.
+void Lookout::fill_up(std::vector<float>& counts) {
+    const auto side = static_cast<int>(side_);
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            if (fresh_[row * side + column] == 0) continue;
+            seen_.left = std::min(seen_.left, left_ + column);
+            seen_.right = std::max(seen_.right, left_ + column);
+            seen_.top = std::min(seen_.top, top_ + row);
+            seen_.bottom = std::max(seen_.bottom, top_ + row);
+        }
+    }
+    // About the middle all of them were asked for.
+    const auto about = static_cast<int>((half_px_ - 2 * margin_px) / std::numbers::sqrt2);
+    const int middle = side / 2;
+    double sum = 0;
+    double pixels = 0;
+    const auto is_seen = [&](int row, int column) {
+        const int x = left_ + column;
+        const int y = top_ + row;
+        return x > seen_.left && x < seen_.right && y > seen_.top && y < seen_.bottom;
+    };
+    for (int row = middle - about; row <= middle + about; ++row) {
+        for (int column = middle - about; column <= middle + about; ++column) {
+            if (!is_seen(row, column)) continue;
+            sum += counts[row * side + column];
+            ++pixels;
+        }
+    }
+    const auto usual = static_cast<float>(pixels > 0 ? sum / pixels : 0);
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            if (!is_seen(row, column)) counts[row * side + column] = usual;
+        }
+    }
+}
+
+// Every place, as it goes so: the slices are laid over each other, and the contour over them.
+void Lookout::look_around(const Coast& own, const Velocity& going) {
+    std::fill(work_.begin(), work_.end(), 0.F);
+    const auto side = static_cast<int>(side_);
+    for (std::size_t i = 0; i < slices; ++i) {
+        const double age_s = static_cast<double>(age_us(i)) * 1e-6;
+        const auto dx = static_cast<int>(std::lround(age_s * going.vx_px_s));
+        const auto dy = static_cast<int>(std::lround(age_s * going.vy_px_s));
+        for (int row = std::max(dy, 0); row < side + std::min(dy, 0); ++row) {
+            const float* from = slices_[i].data() + (row - dy) * side;
+            float* to = work_.data() + row * side;
+            for (int x = std::max(dx, 0); x < side + std::min(dx, 0); ++x) to[x] += from[x - dx];
+        }
+    }
+    std::fill(scores_.begin(), scores_.end(), 0.F);
+    for (std::size_t turn = 0; turn < turns; ++turn) {
+        const double angle_rad = (static_cast<double>(turn) - reach_turn) * turn_rad_;
+        const Eigen::Matrix2d a = rotation(angle_rad) * own.pose.a;
+        float* scores = &scores_[turn * places * places];
+        for (const Eigen::Vector2d& sample : samples_) {
+            const Eigen::Vector2d p = own.pose.t_px + a * sample;
+            const auto column = static_cast<int>(std::lround(p.x())) - left_ - reach_px;
+            const auto row = static_cast<int>(std::lround(p.y())) - top_ - reach_px;
+            if (column < 0 || row < 0 || column + 2 * reach_px >= side ||
+                row + 2 * reach_px >= side) {
+                continue;
+            }
+            const float* counts = work_.data() + row * side + column;
+            for (std::size_t y = 0; y < places; ++y) {
+                for (std::size_t x = 0; x < places; ++x) {
+                    scores[y * places + x] += counts[y * side_ + x];
+                }
+            }
+        }
+    }
+}
+
+// What chance makes of a score: its mean is that of all places, its variance that of counts.
+void Lookout::weigh_noise(const Pose& pose) {
+    std::fill(work_.begin(), work_.end(), 0.F);
+    for (const Eigen::Vector2d& sample : samples_) {
+        const Eigen::Vector2d p = pose.t_px + pose.a * sample;
+        const auto column = static_cast<unsigned>(std::lround(p.x()) - left_ - 1);
+        const auto row = static_cast<unsigned>(std::lround(p.y()) - top_ - 1);
+        if (column >= side_ - 2 || row >= side_ - 2) continue;
+        constexpr std::array<float, 3> spread{0.25F, 0.5F, 0.25F};
+        for (unsigned y = 0; y < 3; ++y) {
+            for (unsigned x = 0; x < 3; ++x) {
+                work_[(row + y) * side_ + column + x] += spread[x] * spread[y];
+            }
+        }
+    }
+    double squares = 0;
+    for (const float weight : work_) squares += static_cast<double>(weight) * weight;
+    mean_ =
+        std::accumulate(scores_.begin(), scores_.end(), 0.0) / static_cast<double>(scores_.size());
+    sigma_ = std::sqrt(std::max(mean_ / static_cast<double>(samples_.size()) * squares, 1e-6));
+}
+
+auto Lookout::scores_of(const Coast& coast) const -> std::array<double, parts> {
+    std::array<double, parts> scores{};
+    for (std::size_t i = 0; i < slices; ++i) {
+        const Pose pose = coast.at(coast.t_us - age_us(i), longest_s).pose;
+        const double left = pose.t_px.x() - left_;
+        const double top = pose.t_px.y() - top_;
+        for (std::size_t k = 0; k < samples_.size(); ++k) {
+            const Eigen::Vector2d& m = samples_[k];
+            const double x = left + pose.a(0, 0) * m.x() + pose.a(0, 1) * m.y();
+            const double y = top + pose.a(1, 0) * m.x() + pose.a(1, 1) * m.y();
+            if (!(x >= 0 && y >= 0 && x < side_ - 1 && y < side_ - 1)) continue;
+            const auto column = static_cast<unsigned>(x);
+            const auto row = static_cast<unsigned>(y);
+            const auto right = static_cast<float>(x - column);
+            const auto down = static_cast<float>(y - row);
+            const float* at = slices_[i].data() + row * side_ + column;
+            const float upper = at[0] + right * (at[1] - at[0]);
+            const float lower = at[side_] + right * (at[side_ + 1] - at[side_]);
+            scores[k * parts / samples_.size()] += upper + down * (lower - upper);
+        }
+    }
+    return scores;
+}
+
+double Lookout::z_of(const Coast& coast) const {
+    const auto scores = scores_of(coast);
+    return (std::accumulate(scores.begin(), scores.end(), 0.0) - mean_) / sigma_;
+}
+
+bool Lookout::is_all_around(const Coast& coast, double z) const {
+    auto scores = scores_of(coast);
+    std::sort(scores.begin(), scores.end());
+    const double rest = std::accumulate(scores.begin(), scores.end() - best_parts, 0.0);
+    constexpr double share = 1 - static_cast<double>(best_parts) / parts;
+    const double rest_z = (rest - share * mean_) / (sigma_ * std::sqrt(share));
+    return rest_z > std::max(least_rest_z, least_rest_share * z);
+}
+
+// In ever smaller steps.
+Coast Lookout::uphill(Coast coast, double& z) const {
+    z = z_of(coast);
+    for (const double step_px : steps_px) {
+        const double step_px_s = step_px * velocity_steps_per_s;
+        bool is_better = true;
+        for (int round = 0; round < most_rounds && is_better; ++round) {
+            is_better = false;
+            for (int freedom = 0; freedom < 6; ++freedom) {
+                for (const double sign : {1.0, -1.0}) {
+                    Coast moved = coast;
+                    const double by = sign * step_px;
+                    const double by_per_s = sign * step_px_s;
+                    if (freedom == 0) moved.pose.t_px.x() += by;
+                    if (freedom == 1) moved.pose.t_px.y() += by;
+                    if (freedom == 2) moved.pose.a = rotation(by * turn_rad_) * coast.pose.a;
+                    if (freedom == 3) moved.velocity.vx_px_s += by_per_s;
+                    if (freedom == 4) moved.velocity.vy_px_s += by_per_s;
+                    if (freedom == 5) moved.velocity.omega_rad_s += by_per_s * turn_rad_;
+                    const double moved_z = z_of(moved);
+                    if (moved_z <= z) continue;
+                    z = moved_z;
+                    coast = moved;
+                    is_better = true;
+                    break;
+                }
+            }
+        }
+    }
+    return coast;
+}
+
+Coast Lookout::best_of_around(const Coast& own, const Velocity& going) const {
+    const auto best = std::max_element(scores_.begin(), scores_.end());
+    const auto index = static_cast<std::size_t>(best - scores_.begin());
+    Coast coast = own;
+    coast.velocity = going;
+    coast.pose.t_px.x() += static_cast<double>(index % places) - reach_px;
+    coast.pose.t_px.y() += static_cast<double>(index / places % places) - reach_px;
+    const double turn = static_cast<double>(index / (places * places)) - reach_turn;
+    coast.pose.a = rotation(turn * turn_rad_) * own.pose.a;
+    return coast;
+}
+
+auto Lookout::look(const Coast& own, double gyration_px, double extent_px, bool everywhere)
+    -> Sight {
+    turn_rad_ = 1 / std::max(gyration_px, 1.0);
+    close_slice();
+    place(own.pose.t_px, extent_px);
+    Sight sight;
+    if (samples_.empty()) return sight;
+    if (everywhere) {
+        look_around(own, {});
+        weigh_noise(own.pose);
+    }
+    sight.own_z = z_of(own);
+    if (!everywhere) return sight;
+    const auto consider = [&](const Velocity& going) {
+        const Coast start = best_of_around(own, going);
+        double z = z_of(start);
+        if (z < worth_a_climb_z) return;
+        const Coast coast = uphill(start, z);
+        const double off_px = (coast.pose.t_px - own.pose.t_px).norm() +
+                              (coast.pose.a - own.pose.a).norm() / std::numbers::sqrt2 / turn_rad_;
+        const double enough =
+            std::max({beyond_chance_z + farther_z_per_px * off_px,
+                      beyond_own_times * sight.own_z + beyond_own_z, sight.instead_z});
+        if (z <= enough || !is_all_around(coast, z)) return;
+        sight.instead = coast;
+        sight.instead_z = z;
+    };
+    consider({});
+    if (std::hypot(own.velocity.vx_px_s, own.velocity.vy_px_s) < slow_px_s) return sight;
+    look_around(own, own.velocity);
+    consider(own.velocity);
+    return sight;
+}
+
+}  // namespace pursuit::tracker

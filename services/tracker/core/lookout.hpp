@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "services/tracker/core/coast.hpp"
+#include "services/tracker/core/contour.hpp"
+#include "services/tracker/core/pose.hpp"
+
+namespace pursuit::tracker {
+
+/// Looks out, among steady noise, for where an object is and how it goes: what fired lately about
+/// it is counted pixel by pixel, and the contour laid over the counts in every pose close by, then
+/// moved uphill, its velocity with it. Where an object moves, its contour covers more than it does
+/// anywhere else. One that stands makes no events, and none of the places stands out.
+///
+/// How far a place stands out is told in standard deviations of noise alone, z. Of all the places
+/// that a look goes through, chance alone lifts the best to 3 as a rule, and to 5 once in some
+/// thousand looks.
+class Lookout {
+ public:
+    Lookout() = default;
+    explicit Lookout(const Contour& contour);
+
+    /// Nothing was seen yet.
+    void restart() {
+        side_ = 0;
+        seen_ = {};
+    }
+
+    /// An event about the object.
+    void see(std::uint16_t x, std::uint16_t y) {
+        const auto column = static_cast<unsigned>(x - left_);
+        const auto row = static_cast<unsigned>(y - top_);
+        if (column < side_ && row < side_) ++fresh_[row * side_ + column];
+    }
+
+    /// What a look shows.
+    struct Sight {
+        double own_z = 0;              ///< Of where the object is thought to be.
+        std::optional<Coast> instead;  ///< It is rather here, beyond chance.
+        double instead_z = 0;
+    };
+    /// Looks at what was seen since the last look and in the four times before it; everywhere, or
+    /// where the object is thought to be alone. To be called every every_us of event time.
+    /// gyration_px, extent_px: of the contour in the image.
+    Sight look(const Coast& own, double gyration_px, double extent_px, bool everywhere);
+
+    static constexpr std::int64_t every_us = 4'000;
+    static constexpr int reach_px = 6;    ///< Places looked at: in x and y, each way, …
+    static constexpr int reach_turn = 8;  ///< … and turned by so many px of the gyration.
+    /// Larger objects would take too long to look for.
+    static constexpr double most_extent_px = 120;
+
+ private:
+    static constexpr std::size_t slices = 5;
+    static constexpr std::size_t parts = 8;
+    static constexpr std::size_t places = 2 * reach_px + 1;
+    static constexpr std::size_t turns = 2 * reach_turn + 1;
+
+    void place(const Eigen::Vector2d& center_px, double extent_px);
+    void close_slice();
+    void fill_up(std::vector<float>& counts);
+    void weigh_noise(const Pose& pose);
+    void look_around(const Coast& own, const Velocity& going);
+    [[nodiscard]] std::array<double, parts> scores_of(const Coast& coast) const;
+    [[nodiscard]] double z_of(const Coast& coast) const;
+    [[nodiscard]] bool is_all_around(const Coast& coast, double z) const;
+    [[nodiscard]] Coast uphill(Coast coast, double& z) const;
+    [[nodiscard]] Coast best_of_around(const Coast& own, const Velocity& going) const;
+
+    /// Where events came from, image px.
+    struct Box {
+        int left = 1 << 20;
+        int right = -1;
+        int top = 1 << 20;
+        int bottom = -1;
+    };
+
+    std::vector<Eigen::Vector2d> samples_;  // model frame, evenly along the contour
+    double turn_rad_ = 0;                   // of a step
+    int left_ = 0, top_ = 0;
+    Box seen_;
+    int half_px_ = 0;
+    unsigned side_ = 0;                              // of the window, px; 0: nothing was seen yet
+    std::vector<std::uint16_t> fresh_;               // events of each pixel since the last look
+    std::array<std::vector<float>, slices> slices_;  // about each pixel; the newest first
+    std::vector<float> work_;
+    std::vector<float> scores_;  // [turn][y][x]
+    double mean_ = 0;            // of a score in noise alone
+    double sigma_ = 1;
+};
+
+}  // namespace pursuit::tracker

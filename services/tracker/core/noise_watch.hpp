@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "services/tracker/core/clutter.hpp"
+#include "services/tracker/core/lookout.hpp"
+
+namespace pursuit::tracker {
+
+/// Keeps an object among strong steady noise: an estimator that takes one event at a time cannot
+/// tell there that an object stands, nor that it has set out, and is carried off.
+///
+///     off ── strong steady noise ──► unseen ── it stands out where it is, or nearby ──► sighted
+///      ▲                             ▲ held      back where it was, unless confirmed ─┐    │
+///      └── less noise ──             └────────────────────────────────────────────────┴────┘
+///
+/// What stands out by chance is gone a few looks later, and the object is put back; what goes on to
+/// stand out is confirmed.
+class NoiseWatch {
+ public:
+    NoiseWatch() = default;
+    explicit NoiseWatch(const Contour& contour) : lookout_(contour) {}
+
+    /// Begins anew with an object at this pose, going so.
+    void restart(const Pose& pose, const Velocity& velocity);
+
+    /// Among noise; otherwise nothing is told.
+    [[nodiscard]] bool is_on() const { return is_on_; }
+    /// Whether it is to be held where it is.
+    [[nodiscard]] bool is_unseen() const { return is_on_ && !is_sighted_; }
+    /// Whether it stands out plainly, has done so for a while, and nothing else does better.
+    [[nodiscard]] bool is_sure() const { return is_on_ && plain_looks_ >= sure_looks; }
+
+    /// An event about the object.
+    void see(std::uint16_t x, std::uint16_t y) { lookout_.see(x, y); }
+
+    [[nodiscard]] bool is_due(std::int64_t t_us) const { return t_us >= due_us_; }
+
+    /// Where to put the object, if not where it is thought to be. can_look: its contour is fit for
+    /// it. gyration_px, extent_px: of the contour in the image.
+    std::optional<Coast> look(const Coast& own, const Clutter& clutter, bool can_look,
+                              double gyration_px, double extent_px);
+
+ private:
+    static constexpr int sure_looks = 12;
+
+    void hold(const Coast& where) {
+        held_ = where;
+        held_.velocity = {};
+        is_confirmed_ = false;
+    }
+    void tell_noise(const Clutter& clutter, bool can_look);
+
+    Lookout lookout_;
+    Coast start_;
+    Coast held_;  // where it was when it was seen last
+    bool is_on_ = false;
+    bool is_sighted_ = false;
+    bool is_confirmed_ = false;
+    double noise_hz_ = 0;  // when it was steady
+    int looks_ = 0;
+    int plain_looks_ = 0;  // in turn
+    std::int64_t began_us_ = -1;
+    std::int64_t due_us_ = 0;
+};
+
+}  // namespace pursuit::tracker

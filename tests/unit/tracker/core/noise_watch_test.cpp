@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "services/tracker/core/lookout.hpp"
+#include "tests/unit/tracker/core/scene.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+using test::outline_events;
+using test::rms_px;
+using test::small_sensor;
+
+// A pixel of the small sensor.
+double noise_per_ms(double hz) { return hz * 304 * 240 * 1e-3; }
+
+// An arrow at 500 px/s; fewer where it is slower. Two events for each px² that its contour covers.
+constexpr double moving_per_ms = 170;
+
+class LookingOut : public testing::Test {
+ protected:
+    LookingOut() {
+        contour_.fit(Eigen::Matrix2d::Identity(), 8);
+        lookout_.restart();
+    }
+
+    /// Looks five times and more about `own` at these events; the last look.
+    Lookout::Sight look_at(const std::vector<Event>& events, const Pose& own) {
+        Coast coast{0, own, {}};
+        lookout_.look(coast, contour_.gyration_px(), contour_.radius_px(), true);
+        Lookout::Sight sight;
+        for (const Event& event : events) {
+            while (event.t_us >= coast.t_us + Lookout::every_us) {
+                coast.t_us += Lookout::every_us;
+                sight = lookout_.look(coast, contour_.gyration_px(), contour_.radius_px(), true);
+                most_z_ = std::max(most_z_, sight.own_z);
+                times_elsewhere_ += sight.instead.has_value();
+            }
+            lookout_.see(event.x, event.y);
+        }
+        return sight;
+    }
+
+    const Shape shape_ = test::arrow();
+    Contour contour_{shape_};
+    Lookout lookout_{contour_};
+    double most_z_ = -1e9;
+    int times_elsewhere_ = 0;
+};
+
+TEST_F(LookingOut, sees_an_object_that_goes_among_noise_where_it_is_and_how_it_goes) {
+    const auto truth = [](double t_us) {
+        return pose_of(150 + 100e-6 * t_us, 120 - 60e-6 * t_us, 0.3 + 1e-6 * t_us);
+    };
+    const auto events =
+        outline_events(shape_, truth, 0, 24'500, moving_per_ms, noise_per_ms(100), small_sensor, 3);
+    // Its place is told 3 px off, and turned.
+    Pose own = truth(24'000);
+    own.t_px += Eigen::Vector2d(2, -2.2);
+    own.a = rotation(-0.15) * own.a;
+    const Lookout::Sight sight = look_at(events, own);
+    EXPECT_LT(sight.own_z, 6);
+    ASSERT_TRUE(sight.instead);
+    EXPECT_GT(sight.instead_z, 8);
+    EXPECT_LT(rms_px(shape_, sight.instead->pose, truth(24'000)), 1);
+    EXPECT_NEAR(sight.instead->velocity.vx_px_s, 100, 50);
+    EXPECT_NEAR(sight.instead->velocity.vy_px_s, -60, 50);
+}
+
+TEST_F(LookingOut, sees_that_an_object_is_where_it_is_thought_to_be) {
+    const auto truth = [](double t_us) { return pose_of(150 + 60e-6 * t_us, 120, 0.3); };
+    const auto events =
+        outline_events(shape_, truth, 0, 24'500, moving_per_ms, noise_per_ms(30), small_sensor, 4);
+    const Lookout::Sight sight = look_at(events, truth(24'000));
+    EXPECT_GT(sight.own_z, 8);
+    EXPECT_FALSE(sight.instead);
+}
+
+TEST_F(LookingOut, sees_nothing_where_there_is_noise_alone) {
+    for (const double hz : {20.0, 100.0, 300.0}) {
+        most_z_ = -1e9;
+        look_at(outline_events(
+                    shape_, [](double) { return pose_of(150, 120, 0.3); }, 0, 120'500, 0,
+                    noise_per_ms(hz), small_sensor, 5),
+                pose_of(150, 120, 0.3));
+        EXPECT_LT(most_z_, 4) << hz;
+        lookout_.restart();
+    }
+    EXPECT_LE(times_elsewhere_, 1);
+}
+
+TEST_F(LookingOut, takes_the_border_of_the_image_for_nothing) {
+    // What lies beyond it makes no events.
+    look_at(outline_events(
+                shape_, [](double) { return pose_of(20, 15, 0.3); }, 0, 120'500, 0,
+                noise_per_ms(100), small_sensor, 8),
+            pose_of(20, 15, 0.3));
+    EXPECT_LT(most_z_, 4);
+    EXPECT_EQ(times_elsewhere_, 0);
+}
+
+TEST_F(LookingOut, takes_no_edge_of_something_else_for_the_object) {
+    // As long as the arrow's longest, it goes along it and then on.
+    Shape edge{"edge", {{-19, 0}, {19, 0}}, {{0, 1}}};
+    const Pose own = pose_of(150, 120, 0);
+    const auto passing = [](double t_us) { return pose_of(140, 100 + 300e-6 * t_us, 0); };
+    auto events = outline_events(edge, passing, 0, 100'000, 60, noise_per_ms(30), small_sensor, 6);
+    look_at(events, own);
+    EXPECT_EQ(times_elsewhere_, 0);
+}
+
+/// The mean error, px, of an arrow among so much noise that stands at first, sets out and stops.
+double mean_error_px(double noise_hz, const Eigen::Vector2d& start_off_px) {
+    const auto truth = [](double t_us) {
+        const double t_s = std::clamp(t_us * 1e-6 - 0.15, 0.0, 0.3);
+        const double turned = t_s / 0.3;
+        const double way_px = 36 * turned * turned * (3 - 2 * turned);  // up to 180 px/s
+        return pose_of(130 + way_px, 120 - way_px / 3, 0.2 * turned);
+    };
+    const Shape shape = test::arrow();
+    Pose start = truth(0);
+    start.t_px += start_off_px;
+    Tracker tracker = test::that_follows_an_arrow(start);
+    test::Poses poses;
+    tracker.process(outline_events(shape, truth, 0, 600'000, moving_per_ms, noise_per_ms(noise_hz),
+                                   small_sensor, 7),
+                    poses);
+    double sum_px = 0;
+    for (const auto& row : poses.rows) {
+        sum_px += rms_px(shape, row.record.pose, truth(static_cast<double>(row.record.t_us)));
+    }
+    return sum_px / static_cast<double>(poses.rows.size());
+}
+
+TEST(NoiseWatch, keeps_an_object_that_stands_among_noise_and_sets_out) {
+    EXPECT_LT(mean_error_px(30, {0.7, -0.7}), 1);
+    EXPECT_LT(mean_error_px(100, {0.7, -0.7}), 1.2);
+}
+
+TEST(NoiseWatch, takes_an_object_up_that_stood_a_few_px_off) {
+    EXPECT_LT(mean_error_px(100, {-3, 2}), 2.5);
+}
+
+TEST(NoiseWatch, holds_an_object_that_stands_for_seconds) {
+    const Shape shape = test::arrow();
+    const Pose there = pose_of(150, 120, 0.3);
+    Tracker tracker = test::that_follows_an_arrow(there);
+    test::Poses poses;
+    for (std::int64_t t_us = 0; t_us < 2'000'000; t_us += 100'000) {
+        tracker.process(outline_events(
+                            shape, [&](double) { return there; }, t_us, t_us + 100'000, 0,
+                            noise_per_ms(60), small_sensor, static_cast<std::uint32_t>(t_us)),
+                        poses);
+    }
+    EXPECT_LT(rms_px(shape, poses.rows.back().record.pose, there), 0.5);
+    const auto is_off = [&](const auto& row) {
+        return row.record.t_us > 30'000 && rms_px(shape, row.record.pose, there) > 0.5;
+    };
+    // By chance it may seem to be elsewhere for a moment.
+    EXPECT_LT(std::count_if(poses.rows.begin(), poses.rows.end(), is_off),
+              static_cast<std::ptrdiff_t>(poses.rows.size() / 100));
+}
+
+}  // namespace
+}  // namespace pursuit::tracker
