@@ -18,8 +18,9 @@ constexpr double own_share_at_start = 0.35;
 constexpr int first_looks = 2;
 constexpr int looks_everywhere = 4;  // where it is plain: by turns
 constexpr double here_z = 4.5;
-constexpr double still_here_z = 3;
+constexpr double still_here_z = 2.5;
 constexpr double confirmed_z = 6;
+constexpr int looks_of_chance = 7;  // longer than what was chance is looked at
 constexpr double plain_z = 8;
 // Where so much of what is on the contour is its own, the estimator needs no help: it follows what
 // turns too fast for a look.
@@ -30,7 +31,7 @@ constexpr double plain_share = 0.5;
 void NoiseWatch::restart(const Pose& pose, const Velocity& velocity) {
     start_ = held_ = {0, pose, velocity};
     is_on_ = is_sighted_ = is_confirmed_ = false;
-    looks_ = plain_looks_ = 0;
+    looks_ = plain_looks_ = sighted_looks_ = 0;
     began_us_ = -1;
     due_us_ = 0;
 }
@@ -57,7 +58,7 @@ std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter, 
     if (!was_on) {
         lookout_.restart();
         lookout_.look(own, gyration_px, extent_px, false);
-        looks_ = plain_looks_ = 0;
+        looks_ = plain_looks_ = sighted_looks_ = 0;
         const Velocity& v = start_.velocity;
         const bool stood = v.vx_px_s == 0 && v.vy_px_s == 0 && v.omega_rad_s == 0;
         const bool is_fresh =
@@ -79,10 +80,12 @@ std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter, 
     if (sight.instead) {
         if (is_confirmed_) hold(own);
         is_sighted_ = true;
+        sighted_looks_ = 0;
         return sight.instead;
     }
     is_sighted_ = own_z > (is_sighted_ ? still_here_z : here_z);
-    is_confirmed_ |= is_sighted_ && own_z > confirmed_z;
+    sighted_looks_ = is_sighted_ ? sighted_looks_ + 1 : 0;
+    is_confirmed_ |= own_z > confirmed_z || sighted_looks_ > looks_of_chance;
     if (is_sighted_) return std::nullopt;
     if (is_confirmed_) {
         hold(own);

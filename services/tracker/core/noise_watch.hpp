@@ -16,8 +16,8 @@ namespace pursuit::tracker {
 ///      ▲                             ▲ held      back where it was, unless confirmed ─┐    │
 ///      └── less noise ──             └────────────────────────────────────────────────┴────┘
 ///
-/// What stands out by chance is gone a few looks later, and the object is put back; what goes on to
-/// stand out is confirmed.
+/// What stands out by chance is gone a few looks later, and the object is put back; what stands out
+/// plainly or goes on to stand out is confirmed.
 class NoiseWatch {
  public:
     NoiseWatch() = default;
@@ -61,7 +61,8 @@ class NoiseWatch {
     bool is_confirmed_ = false;
     double noise_hz_ = 0;  // when it was steady
     int looks_ = 0;
-    int plain_looks_ = 0;  // in turn
+    int plain_looks_ = 0;    // in turn
+    int sighted_looks_ = 0;  // since it was put there
     std::int64_t began_us_ = -1;
     std::int64_t due_us_ = 0;
 };
