@@ -171,7 +171,11 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     const double missed2 = missed_of_px_s * missed_of_px_s * own_speed2();
     constexpr double silent2 = silent_events * silent_events;
     filter_.advance(missed2 > silent2 ? dt_s * std::sqrt(silent2 / missed2) : dt_s);
-    if (stood_still || unspread_s_ > spread_s || unspread_s_ * speed_px_s_ > spread_way_px) {
+    // Of a way, or of what the way is uncertain by: at a start nobody knows the speed.
+    const double way2 =
+        unspread_s_ * unspread_s_ *
+        (speed_px_s_ * speed_px_s_ + filter_.speed_variance(size_.gyration_px * size_.gyration_px));
+    if (stood_still || unspread_s_ > spread_s || way2 > spread_way_px * spread_way_px) {
         spread(unspread_s_);
         unspread_s_ = 0;
     }

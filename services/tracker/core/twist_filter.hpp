@@ -137,6 +137,11 @@ class TwistFilter {
 
     [[nodiscard]] const Pose& pose() const { return pose_; }
     [[nodiscard]] const Step& twist() const { return twist_; }
+    /// Of the velocity of T, both ways, and of a place so far from it for its turning; px²/s².
+    [[nodiscard]] double speed_variance(double radius2_px2) const {
+        return covariance_(dof, dof) + covariance_(dof + 1, dof + 1) +
+               radius2_px2 * covariance_(dof + 2, dof + 2);
+    }
     [[nodiscard]] const Leads& lead_px() const { return lead_px_; }
     [[nodiscard]] Covariance covariance() const {
         return covariance_.template selfadjointView<Eigen::Lower>();
