@@ -28,8 +28,8 @@ class LivePursuit:
             digest_of_program(os.path.join(BIN, name)) for name in programs)
 
     def track(self, files, folder):
-        """Writes poses.csv, and status.json with the most of busy and lag; returns the former's
-        path and the event time, s."""
+        """Writes poses.csv, and status.json with the most of busy and lag and the mean of busy;
+        returns the former's path and the event time, s."""
         domain = FreeDomain()
         dds = ["--set", f"dds.domain={domain.domain}", "--set", "dds.loopback_only=true"]
         ctl = ["--domain", domain.domain, "--loopback"]
@@ -52,12 +52,14 @@ class LivePursuit:
                   "wait_for_subscribers=1")
             end_us = last_event_us(files)
             deadline = time.monotonic() + end_us * 1e-6 + 20
-            busy = lag_us = 0
+            lag_us = 0
+            busy = []  # of seconds
             while True:
                 time.sleep(0.5)
                 status = json.loads(run([CTL, "status", "--json", *ctl])[0])["tracker"]
-                # Of the time since the last status.
-                busy = max(busy, status["busy_fraction"])
+                # Of a second of event time; the same until the next is over.
+                if status["busy_fraction"] > 0 and status["busy_fraction"] != (busy or [0])[-1]:
+                    busy.append(status["busy_fraction"])
                 if status["last_t_us"] < end_us - 2000:
                     lag_us = max(lag_us, status["lag_us"])
                 if status["last_t_us"] >= end_us - 2000:
@@ -70,7 +72,9 @@ class LivePursuit:
                 process.kill()
             domain.close()
         with open(os.path.join(folder, "status.json"), "w") as file:
-            json.dump({**status, "busy_fraction": busy, "lag_us": lag_us}, file)
+            json.dump({**status, "busy_most": max(busy, default=0),
+                       "busy_mean": sum(busy) / max(len(busy), 1),
+                       "lag_us": lag_us}, file)
         return poses, end_us * 1e-6
 
 
