@@ -24,7 +24,7 @@ class LivePursuit:
 
     def key(self):
         programs = ("pursuitctl", "pursuit-sensor", "pursuit-tracker")
-        return f"live {self.estimator} {self.parameters} " + " ".join(
+        return f"live, busy in the mean {self.estimator} {self.parameters} " + " ".join(
             digest_of_program(os.path.join(BIN, name)) for name in programs)
 
     def track(self, files, folder):

@@ -148,10 +148,8 @@ struct CandidateGrid::Divider {
         if (kept == last_list && last_at > 0) return last_at;
         last_list = kept;
         last_at = static_cast<std::uint32_t>(grid.listed_.size());
-        const bool is_odd = kept.size() % 2 == 1;
-        grid.listed_.push_back(static_cast<std::uint16_t>(kept.size() + (is_odd ? 1 : 0)));
+        grid.listed_.push_back(static_cast<std::uint16_t>(kept.size()));
         grid.listed_.insert(grid.listed_.end(), kept.begin(), kept.end());
-        if (is_odd) grid.listed_.push_back(kept.back());
         return last_at;
     }
 };

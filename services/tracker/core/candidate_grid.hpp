@@ -107,13 +107,6 @@ class CandidateGrid {
         std::int32_t piece = -1;  ///< -1: beyond the reach.
         double squared_px = 0;    ///< In the image metric. The first of several equally near.
         double foot = 0;          ///< Where on the piece, 0 … 1.
-
-        void take(std::uint16_t other, double other_squared_px, double other_foot) {
-            const bool is_nearer = other_squared_px < squared_px;
-            piece = is_nearer ? other : piece;
-            foot = is_nearer ? other_foot : foot;
-            squared_px = is_nearer ? other_squared_px : squared_px;
-        }
     };
 
     /// Metric: ImageMetric, or ModelMetric where A keeps angles. (Always inlined: what it gives
@@ -130,26 +123,11 @@ class CandidateGrid {
         Nearest best;
         if (++listed == end) return best;
         best.squared_px = std::numeric_limits<double>::infinity();
-        // Two at a time and without a branch: which is nearer, no processor can foresee.
-        if (are_points_) {
-            do {
-                const Place& first = points_[listed[0]];
-                const Place& second = points_[listed[1]];
-                const double first2 = metric.squared(x - first.x, y - first.y);
-                const double second2 = metric.squared(x - second.x, y - second.y);
-                best.take(listed[0], first2, 0);
-                best.take(listed[1], second2, 0);
-                listed += 2;
-            } while (listed != end);
-            return best;
+        for (; listed != end; ++listed) {
+            const Nearest other =
+                are_points_ ? seen_point(*listed, x, y, metric) : seen(*listed, x, y, metric);
+            if (other.squared_px < best.squared_px) best = other;
         }
-        do {
-            const Nearest first = seen(listed[0], x, y, metric);
-            const Nearest second = seen(listed[1], x, y, metric);
-            best.take(listed[0], first.squared_px, first.foot);
-            best.take(listed[1], second.squared_px, second.foot);
-            listed += 2;
-        } while (listed != end);
         return best;
     }
 
@@ -170,10 +148,16 @@ class CandidateGrid {
  private:
     struct Divider;
 
+    template <class Metric>
+    [[nodiscard]] Nearest seen_point(std::uint16_t piece, double x, double y,
+                                     const Metric& metric) const {
+        const Place& point = points_[piece];
+        return {piece, metric.squared(x - point.x, y - point.y), 0};
+    }
     // As Piece has it, in the same order.
     template <class Metric>
-    [[nodiscard, gnu::always_inline]] Nearest seen(std::uint16_t piece, double x, double y,
-                                                   const Metric& metric) const {
+    [[nodiscard]] Nearest seen(std::uint16_t piece, double x, double y,
+                               const Metric& metric) const {
         const Segment& segment = segments_[piece];
         const double vx = x - segment.ax;
         const double vy = y - segment.ay;
@@ -198,9 +182,8 @@ class CandidateGrid {
     double cells_per_px_ = 1;
     int columns_ = 0;
     int rows_ = 0;
-    std::vector<std::uint32_t> cells_;  // where each one's list begins
-    // The lists: how many, and which, rising; an odd one's last is there twice.
-    std::vector<std::uint16_t> listed_;
+    std::vector<std::uint32_t> cells_;   // where each one's list begins
+    std::vector<std::uint16_t> listed_;  // the lists: how many, and which, rising
 };
 
 }  // namespace pursuit::tracker

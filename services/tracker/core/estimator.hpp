@@ -59,9 +59,9 @@ class Estimator {
     /// How far from the pose's place an event until t_us can be and concern the object, px.
     [[nodiscard]] virtual double reach_px(std::int64_t t_us) const = 0;
 
-    /// Whether what comes near the object is noise alone: it makes no events of its own.
     /// It does not move any more, until events tell that it does.
     virtual void stand_still() {}
+    /// Whether what comes near the object is noise alone: it makes no events of its own.
     [[nodiscard]] virtual bool sees_noise_alone() const { return false; }
     /// Whether among strong noise the object was looked for nearby and plainly is where it is
     /// thought to be.

@@ -243,6 +243,7 @@ void KalmanEstimator<kind>::look_out(std::int64_t t_us) {
     Step twist_sigma = Step::Constant(sighted_speed_sigma_px_s * per_px);
     twist_sigma.template head<2>().setConstant(sighted_speed_sigma_px_s);
     filter_.restart(to->pose, M::twist_of(to->velocity), pose_sigma, twist_sigma);
+    unspread_s_ = 0;
     // It did not go this way event by event.
     clock_.begin_way();
     way_begin_ = to->pose;

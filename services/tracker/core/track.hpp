@@ -54,6 +54,7 @@ class Track {
 
     [[nodiscard]] std::uint32_t object_id() const { return object_id_; }
     [[nodiscard]] Pose pose() const;
+    [[nodiscard]] std::uint64_t events_used() const { return events_used_; }
 
     /// Time goes on: to be called every half ms in which any events come, the object's or not.
     void reach_time(std::int64_t t_us);

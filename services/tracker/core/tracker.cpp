@@ -26,7 +26,7 @@ constexpr std::int64_t round_us = 500;
 
 // Where a track is, is noted in the map after so many of its events; ReachMap::place() has room for
 // what they move it.
-constexpr std::uint32_t placed_every_events = 8;
+constexpr std::uint64_t placed_every_events = 8;
 
 // How far ahead of the event in hand the pixels of those to come are fetched from memory.
 constexpr std::size_t prefetched = 16;
@@ -153,7 +153,8 @@ class Tracker::Impl {
             if (!(claims[i].weight > 0)) continue;
             Track& track = tracks[claimants[i]];
             const bool is_taken = track.take(event, claims[i].weight);
-            if (++taken_count % placed_every_events == 0) {
+            // One that lost its grip is asked about events from farther away.
+            if (!is_taken || track.events_used() % placed_every_events == 0) {
                 reach_map.place(claimants[i], track.reach(next_round_us));
             }
             if (!is_taken) continue;
@@ -248,7 +249,6 @@ class Tracker::Impl {
     ReachMap reach_map;
     std::int64_t next_round_us = 0;
     std::int64_t wake_us = 0;  // not before it is there anything to do but to take events
-    std::uint32_t taken_count = 0;
 
     // Of the event in hand; kept to allocate nothing an event.
     std::vector<Claim> claims;

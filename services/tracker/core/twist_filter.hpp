@@ -46,11 +46,7 @@ class TwistFilter {
         covariance_.template bottomRightCorner<leads, leads>() = covariance_px2;
     }
 
-    /// A prediction of dt_s: it moved for moving_s of it …
-    void predict(double dt_s, double moving_s, const Step& noise) {
-        advance(moving_s);
-        spread(dt_s, noise);
-    }
+    /// A prediction, first half: it moved for so long …
     void advance(double moving_s) { move(moving_s, pose_, twist_); }
     /// … and is known by that much less; noise: the spectral density of the twist's random walk, a
     /// component each.

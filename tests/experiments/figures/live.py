@@ -14,10 +14,10 @@ def run(settings):
     duration_s = 3  # busy is told of whole seconds
     page.text(f"Sensor, tracker and a viewer are processes of their own on loopback, {len(seeds)} "
               f"streams of {duration_s} s each; the numbers are the worst of them. Busy: processing "
-              "time over event time, in the mean and of the worst second (whatever else the machine did "
-              "then is in it). Lag: how far the tracker was behind the "
-              "sensor's clock when it was asked, twice a second. Late: from the instant at which a pose's packet was to be sent "
-              "to the pose's publication; a packet is closed after 1 ms.")
+              "time over event time, in the mean and of the worst second (whatever else the machine "
+              "did then is in it). Lag: how far the tracker was behind the sensor's clock when it "
+              "was asked, twice a second. Late: from the instant at which a pose's packet was to be "
+              "sent to the pose's publication; a packet is closed after 1 ms.")
     settings.scores.jobs = 1
     trackers = (LivePursuit("default", "kalman"),
                 LivePursuit(BEST_GRADIENT.label, "gradient", BEST_GRADIENT.parameters))
@@ -44,6 +44,6 @@ def run(settings):
                          number(most(lambda s: s["latency"]["p99_us"] * 1e-3), 1),
                          number(most(lambda s: s["latency"]["max_us"] * 1e-3), 1),
                          most(lambda s: s["packets_missed"]), most(lambda s: s["events_dropped"])])
-    page.table(["", "lost / E, px", "busy", "worst second", "lag, ms", "late, ms: median", "99 %", "most", "packets missed",
-                "events dropped"], rows)
+    page.table(["", "lost / E, px", "busy", "worst second", "lag, ms", "late, ms: median",
+                "99 %", "most", "packets missed", "events dropped"], rows)
     return page

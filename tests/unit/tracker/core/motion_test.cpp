@@ -95,7 +95,8 @@ TYPED_TEST(MotionOf, is_filtered_as_full_matrices_would) {
         drift.block(dof, 0, dof, dof).diagonal() = noise * (dt_s * dt_s / 2);
         drift.block(dof, dof, dof, dof).diagonal() = noise * dt_s;
         p = Full(f * p * f.transpose() + drift);
-        filter.predict(dt_s, dt_s, noise);
+        filter.advance(dt_s);
+        filter.spread(dt_s, noise);
 
         const Eigen::Vector2d n(std::cos(round), std::sin(round));
         const Step j = Motion<TypeParam::kind>::along(n, pose.a * m, pose.a, m);
