@@ -2,6 +2,7 @@
 """The tracker as its user runs it: sensor, tracker and a viewer as processes of their own on DDS."""
 
 import csv
+import itertools
 import json
 import os
 import sys
@@ -24,7 +25,7 @@ class LivePursuit:
 
     def key(self):
         programs = ("pursuitctl", "pursuit-sensor", "pursuit-tracker")
-        return f"live, busy in the mean {self.estimator} {self.parameters} " + " ".join(
+        return f"live, watched {self.estimator} {self.parameters} " + " ".join(
             digest_of_program(os.path.join(BIN, name)) for name in programs)
 
     def track(self, files, folder):
@@ -48,34 +49,40 @@ class LivePursuit:
             for model in files.starts():
                 run([CTL, "model", "register", model, *register, *ctl])
             viewer = start("pursuitctl", "poses", "--csv", poses, *ctl, ready=False)
+            # One that stays: each that joins anew takes from the processors what it measures.
+            watcher = start("pursuitctl", "status", "--watch", "--json", *ctl, ready=False)
             start("pursuit-sensor", *dds, "--set", f"recording={files.events}", "--set",
                   "wait_for_subscribers=1")
             end_us = last_event_us(files)
             deadline = time.monotonic() + end_us * 1e-6 + 20
-            lag_us = 0
-            busy = []  # of seconds
-            while True:
-                time.sleep(0.5)
-                status = json.loads(run([CTL, "status", "--json", *ctl])[0])["tracker"]
-                # Of a second of event time; the same until the next is over.
-                if status["busy_fraction"] > 0 and status["busy_fraction"] != (busy or [0])[-1]:
-                    busy.append(status["busy_fraction"])
-                if status["last_t_us"] < end_us - 2000:
-                    lag_us = max(lag_us, status["lag_us"])
-                if status["last_t_us"] >= end_us - 2000:
-                    break
+            while last_status(watcher).get("last_t_us", 0) < end_us - 2000:
                 if time.monotonic() > deadline:
-                    raise Failed(f"the tracker is at {status['last_t_us']} of {end_us} us")
+                    raise Failed(f"the tracker is not at {end_us} us: {last_status(watcher)}")
+                time.sleep(0.5)
+            told = statuses(watcher)
             viewer.stop()
         finally:
             for process in processes:
                 process.kill()
             domain.close()
+        # Busy is of the last whole second of event time; lag is only there while events come.
+        busy = [of for of, _ in itertools.groupby(s["busy_fraction"] for s in told) if of > 0]
+        lags_us = [s["lag_us"] for s in told if s["last_t_us"] < end_us - 2000]
         with open(os.path.join(folder, "status.json"), "w") as file:
-            json.dump({**status, "busy_most": max(busy, default=0),
+            json.dump({**told[-1], "busy_most": max(busy, default=0),
                        "busy_mean": sum(busy) / max(len(busy), 1),
-                       "lag_us": lag_us}, file)
+                       "lag_us": max(lags_us, default=0)}, file)
         return poses, end_us * 1e-6
+
+
+def statuses(watcher):
+    """Of the tracker, as the watcher has told them so far; a line half written is not among them."""
+    lines = watcher.out().split("\n")[:-1]
+    return [status for status in (json.loads(line)["tracker"] for line in lines) if status]
+
+
+def last_status(watcher):
+    return (statuses(watcher) or [{}])[-1]
 
 
 def last_event_us(files):

@@ -15,8 +15,8 @@ def run(settings):
     page.text(f"Sensor, tracker and a viewer are processes of their own on loopback, {len(seeds)} "
               f"streams of {duration_s} s each; the numbers are the worst of them. Busy: processing "
               "time over event time, in the mean and of the worst second (whatever else the machine "
-              "did then is in it). Lag: how far the tracker was behind the sensor's clock when it "
-              "was asked, twice a second. Late: from the instant at which a pose's packet was to be "
+              "did then is in it). Lag: how far the tracker was behind the sensor's clock, told "
+              "every second. Late: from the instant at which a pose's packet was to be "
               "sent to the pose's publication; a packet is closed after 1 ms.")
     settings.scores.jobs = 1
     trackers = (LivePursuit("default", "kalman"),
