@@ -3,6 +3,7 @@
 
 #include "services/recorder/record/record_activity.hpp"
 #include "services/recorder/replay/replay_activity.hpp"
+#include "services/recorder/replay/replay_topics.hpp"
 #include "services/recorder/topic_table.hpp"
 
 namespace pursuit::recorder {
@@ -45,7 +46,7 @@ Result<std::unique_ptr<Service>> RecorderService::make(const disk::RecorderConfi
     }
     for (const auto& topic : configuration.topic()) {
         if (find_raw_topic(topic) != nullptr) {
-            const auto refusal = ReplayActivity::refusal_of(topic);
+            const auto refusal = replay_refusal(topic);
             if (configuration.replay().empty() || refusal.empty()) continue;
             return fail("field topic: " + refusal);
         }

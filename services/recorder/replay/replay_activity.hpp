@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <atomic>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -15,11 +13,11 @@
 #include "services/common/health.hpp"
 #include "services/recorder/activity.hpp"
 #include "services/recorder/mcap/reader.hpp"
-#include "services/recorder/packet_fields.hpp"
-#include "services/recorder/replay/raw_writer.hpp"
+#include "services/recorder/replay/call_schedule.hpp"
+#include "services/recorder/replay/replay_outlet.hpp"
 #include "services/recorder/replay/replay_pace.hpp"
 #include "services/recorder/replay/replay_plan.hpp"
-#include "services/recorder/replay/tracker_calls.hpp"
+#include "services/recorder/replay/stream_renewal.hpp"
 
 namespace pursuit::recorder {
 
@@ -30,16 +28,11 @@ namespace pursuit::recorder {
 ///   reading ─► waiting (for subscribers, for a tracker) ─► playing ⇄ paused ─► finished
 ///                                                             └── loop ──┘
 ///
-/// A packet's payload stays as it was but for three fields: stream_id is another at each start,
-/// because it is a new stream; host_time_ns is when the packet would be made now, and
-/// recorded_host_time_ns what it was. Threads: one of its own.
+/// Threads: one of its own, which reads the file and sends.
 class ReplayActivity final : public Activity {
  public:
     ReplayActivity(const disk::RecorderConfig& configuration, Health& health);
     ~ReplayActivity() override;
-
-    /// Why a topic cannot be replayed; empty when it can.
-    static std::string refusal_of(const std::string& topic);
 
     Result<void> start() override;
     void tick() override {}
@@ -55,28 +48,13 @@ class ReplayActivity final : public Activity {
     void new_file(Done done) override;
 
  private:
-    /// A topic that is replayed, with its running totals.
-    struct Channel {
-        std::unique_ptr<RawWriter> writer;
-        bool packets = false;  ///< Its messages are EventPackets.
-        std::atomic<std::uint64_t> messages{0};
-        std::atomic<std::uint64_t> bytes{0};
-        std::atomic<std::uint64_t> lost{0};  ///< Not taken by the middleware.
-        std::size_t unacknowledged = 0;      ///< At most, since the last wait.
-    };
-
     void run();
     Result<void> prepare();
+    void tell_plan();
     bool wait_for_peers();
     Result<void> play_once();
-    Result<void> play(const mcap::MessageView& message, Channel& channel);
-    void renew(Payload& payload, const PacketFields& packet, std::int64_t log_time_ns,
-               const ReplayPace::Due& due);
-    void make_calls(const PacketFields& packet);
-    void make_call(const PlannedCall& call, bool begins_stream);
-    void make_calls_left();
-    void keep_room(Channel& channel, bool hurried);
-    void wait_acknowledged(Channel& channel);
+    void play(const mcap::MessageView& message, ReplayChannel& channel);
+    void make(const std::vector<CallSchedule::DueCall>& calls);
     void say(v1::ServiceState state, const std::string& line);
     void error(const std::string& message);
 
@@ -84,22 +62,14 @@ class ReplayActivity final : public Activity {
     Health& health_;
     SystemClock clock_;
     ReplayPace pace_;
-    std::unique_ptr<Participant> participant_;
-    std::unique_ptr<TrackerCalls> calls_;      ///< Null where calls are not to be replayed.
-    std::map<std::string, Channel> channels_;  ///< By topic; unchanged once prepared_.
+    ReplayPlan plan_;                       ///< Unchanged once prepared_.
+    std::unique_ptr<ReplayOutlet> outlet_;  ///< There once prepared_.
     std::atomic<bool> prepared_{false};
-    ReplayPlan plan_;
 
     // Of one pass.
-    std::map<std::uint32_t, std::deque<PlannedCall>> calls_left_;
-    std::map<std::uint32_t, std::vector<std::uint64_t>> streams_;  ///< By sensor, as recorded.
-    std::map<std::uint64_t, std::uint64_t> new_stream_ids_;
-    std::uint64_t next_stream_id_ = 0;
-    std::size_t tracker_room_ = 0;
+    CallSchedule schedule_;
+    StreamRenewal renewal_;
 
-    std::atomic<std::uint64_t> calls_made_{0};
-    std::atomic<std::uint64_t> calls_failed_{0};
-    std::atomic<std::uint64_t> unacknowledged_{0};  ///< Waits that ended without.
     std::atomic<bool> finished_{false};
     std::atomic<bool> failed_{false};
     std::atomic<std::uint64_t> changes_{0};

@@ -9,18 +9,9 @@
 #include <vector>
 
 #include "services/common/result.hpp"
-#include "tracker_requests.h"
+#include "services/recorder/replay/planned_call.hpp"
 
 namespace pursuit::recorder {
-
-/// A call on the tracker that belongs to a recording: one that was recorded with its reply, or one
-/// that brings about what held before the recording began.
-struct PlannedCall {
-    v1::TrackerRequest request;  ///< apply_at_us is the recorded reply's effective_time_us.
-    std::string name;            ///< For messages: "register model car at 1560000 us".
-    std::size_t stream = 0;      ///< It holds in this stream of its sensor, counted from 0.
-    std::size_t order = 0;       ///< Among those of the same time.
-};
 
 /// What one pass over a recording finds out before it is replayed.
 struct ReplayPlan {

@@ -7,6 +7,7 @@
 
 #include "events.h"
 #include "services/recorder/stream_gaps.hpp"
+#include "tests/unit/recorder/packet_payload.hpp"
 
 namespace pursuit::recorder {
 namespace {
@@ -29,17 +30,6 @@ v1::EventPacket packet_of(std::size_t words) {
     return packet;
 }
 
-/// As the generated code of a host of that byte order writes it.
-std::vector<std::uint8_t> serialized(const v1::EventPacket& packet, Cdr::Endianness endianness) {
-    std::vector<std::uint8_t> payload(v1::EventPacket::getCdrSerializedSize(packet) + 4);
-    eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(payload.data()), payload.size());
-    Cdr cdr(buffer, endianness, Cdr::DDS_CDR);
-    cdr.serialize_encapsulation();
-    packet.serialize(cdr);
-    payload.resize(cdr.getSerializedDataLength());
-    return payload;
-}
-
 v1::EventPacket deserialized(std::vector<std::uint8_t> payload) {
     eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(payload.data()), payload.size());
     Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
@@ -55,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(EitherByteOrder, PacketFieldsOf,
 
 TEST_P(PacketFieldsOf, a_packet_are_those_that_were_serialized) {
     for (const std::size_t words : {0U, 1U, 2U, 8000U}) {
-        const auto payload = serialized(packet_of(words), GetParam());
+        const auto payload = packet_payload(packet_of(words), GetParam());
         const auto fields = PacketFields::of(payload);
         ASSERT_TRUE(fields) << words;
         EXPECT_EQ(fields->sensor_id(), 0x01020304U);
@@ -73,7 +63,7 @@ TEST_P(PacketFieldsOf, a_packet_are_those_that_were_serialized) {
 
 TEST_P(PacketFieldsOf, a_packet_are_set_without_touching_the_others) {
     auto expected = packet_of(3);
-    auto payload = serialized(expected, GetParam());
+    auto payload = packet_payload(expected, GetParam());
     const auto original = payload;
     const auto fields = PacketFields::of(original);
     ASSERT_TRUE(fields);
@@ -84,11 +74,11 @@ TEST_P(PacketFieldsOf, a_packet_are_set_without_touching_the_others) {
     expected.host_time_ns(-43);
     expected.recorded_host_time_ns(44);
     EXPECT_EQ(deserialized(payload), expected);
-    EXPECT_EQ(payload, serialized(expected, GetParam()));
+    EXPECT_EQ(payload, packet_payload(expected, GetParam()));
 }
 
 TEST_P(PacketFieldsOf, a_payload_cut_anywhere_are_refused) {
-    const auto payload = serialized(packet_of(2), GetParam());
+    const auto payload = packet_payload(packet_of(2), GetParam());
     for (std::size_t size = 0; size < payload.size(); ++size) {
         EXPECT_FALSE(PacketFields::of(std::span(payload).first(size))) << size;
     }
@@ -96,7 +86,7 @@ TEST_P(PacketFieldsOf, a_payload_cut_anywhere_are_refused) {
 }
 
 TEST(PacketFields, of_another_encapsulation_are_refused) {
-    auto payload = serialized(packet_of(1), Cdr::LITTLE_ENDIANNESS);
+    auto payload = packet_payload(packet_of(1), Cdr::LITTLE_ENDIANNESS);
     payload[1] = 3;
     EXPECT_FALSE(PacketFields::of(payload));
 }
