@@ -55,12 +55,9 @@ void Acquisition::take() {
     estimator_.take(1);
     if (distance_px_ < narrowest_gate_px) {
         const bool is_sharp = distance_px_ < narrowest_gate_px / 4;
-        health_.count(is_sharp, t_us_);
-        if (is_sharp) {
-            if (cover_.count(piece_)) {
-                cover_.close_window(outline_, estimator_.pose(), velocity());
-            }
-        }
+        health_.count(is_sharp ? 1 : 0, 1, t_us_);
+        if (is_sharp) cover_.count(piece_);
+        if (cover_.is_due()) cover_.close_window(outline_, estimator_.pose(), velocity());
     }
     residual_px_ += 0.01 * (distance_px_ - residual_px_);
     set_gate(std::clamp(gate_per_residual * residual_px_, narrowest_gate_px, widest_gate_px));

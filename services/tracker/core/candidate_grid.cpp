@@ -148,8 +148,12 @@ struct CandidateGrid::Divider {
         if (kept == last_list && last_at > 0) return last_at;
         last_list = kept;
         last_at = static_cast<std::uint32_t>(grid.listed_.size());
-        grid.listed_.push_back(static_cast<std::uint16_t>(kept.size()));
-        grid.listed_.insert(grid.listed_.end(), kept.begin(), kept.end());
+        // One is listed twice: most cells have one or two, and nobody could foresee which.
+        const std::size_t times = kept.size() == 1 ? 2 : 1;
+        grid.listed_.push_back(static_cast<std::uint16_t>(times * kept.size()));
+        for (std::size_t i = 0; i < times; ++i) {
+            grid.listed_.insert(grid.listed_.end(), kept.begin(), kept.end());
+        }
         return last_at;
     }
 };

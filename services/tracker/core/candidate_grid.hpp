@@ -3,9 +3,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <span>
 #include <vector>
 
 namespace pursuit::tracker {
@@ -120,15 +121,21 @@ class CandidateGrid {
         const std::uint16_t* listed =
             &listed_[cells_[place_of(static_cast<int>(column), static_cast<int>(row))]];
         const std::uint16_t* const end = listed + 1 + *listed;
-        Nearest best;
-        if (++listed == end) return best;
-        best.squared_px = std::numeric_limits<double>::infinity();
-        for (; listed != end; ++listed) {
-            const Nearest other =
-                are_points_ ? seen_point(*listed, x, y, metric) : seen(*listed, x, y, metric);
-            if (other.squared_px < best.squared_px) best = other;
-        }
-        return best;
+        if (++listed == end) return {};
+        return are_points_
+                   ? nearest_of(listed, end,
+                                [&](std::uint16_t i) { return seen_point(i, x, y, metric); })
+                   : nearest_of(listed, end,
+                                [&](std::uint16_t i) { return seen(i, x, y, metric); });
+    }
+
+    /// The nearest of these alone, one or more.
+    template <class Metric>
+    [[nodiscard, gnu::always_inline]] Nearest nearest_among(std::span<const std::uint16_t> pieces,
+                                                            double x, double y,
+                                                            const Metric& metric) const {
+        return nearest_of(pieces.data(), pieces.data() + pieces.size(),
+                          [&](std::uint16_t i) { return seen(i, x, y, metric); });
     }
 
     [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
@@ -148,6 +155,26 @@ class CandidateGrid {
  private:
     struct Divider;
 
+    // Without a branch that nobody could foresee: a squared distance is ordered as its bits are.
+    template <class See>
+    [[nodiscard, gnu::always_inline]] static Nearest nearest_of(const std::uint16_t* listed,
+                                                                const std::uint16_t* end,
+                                                                const See& see) {
+        Nearest best = see(*listed);
+        auto squared = std::bit_cast<std::int64_t>(best.squared_px);
+        auto foot = std::bit_cast<std::int64_t>(best.foot);
+        while (++listed != end) {
+            const Nearest other = see(*listed);
+            const auto other_squared = std::bit_cast<std::int64_t>(other.squared_px);
+            const bool is_nearer = other_squared < squared;
+            best.piece = is_nearer ? other.piece : best.piece;
+            foot = is_nearer ? std::bit_cast<std::int64_t>(other.foot) : foot;
+            squared = is_nearer ? other_squared : squared;
+        }
+        best.squared_px = std::bit_cast<double>(squared);
+        best.foot = std::bit_cast<double>(foot);
+        return best;
+    }
     template <class Metric>
     [[nodiscard]] Nearest seen_point(std::uint16_t piece, double x, double y,
                                      const Metric& metric) const {
@@ -183,7 +210,7 @@ class CandidateGrid {
     int columns_ = 0;
     int rows_ = 0;
     std::vector<std::uint32_t> cells_;   // where each one's list begins
-    std::vector<std::uint16_t> listed_;  // the lists: how many, and which, rising
+    std::vector<std::uint16_t> listed_;  // the lists: how many, and which
 };
 
 }  // namespace pursuit::tracker

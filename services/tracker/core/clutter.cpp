@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace pursuit::tracker {
 namespace {
@@ -71,7 +72,7 @@ void Clutter::restart() {
     for (Part& part : parts_) part.forget();
     standing_density_ = {floor, floor};
     since_near_us_ = for_more_ = for_noise_ = 0;
-    is_noise_alone_ = is_quiet_ = is_swamped_ = false;
+    is_noise_alone_ = is_quiet_ = is_swamped_ = is_steady_ = false;
     usual_near_hz_ = 0;
     bin_events_ = bin_mean_ = bin_variance_ = bins_ = 0;
     bin_end_us_ = 0;
@@ -138,6 +139,7 @@ void Clutter::sample(const Contour& contour, const Eigen::Matrix2d& a) {
         }
         whole_.far_area_px2[side] = std::max(whole_.far_area_px2[side], 1.0);
     }
+    is_steady_ = seems_steady();
 }
 
 void Clutter::count_far(std::int32_t piece, double r_px) {
@@ -165,15 +167,17 @@ void Clutter::count_near(std::int32_t piece, double share) {
 
 // Two sequential tests (Page's) of the rate on the contour: the noise's own, or 1.4 times as much.
 void Clutter::weigh_noise() {
-    const double more =
-        log_more_than_noise - (more_than_noise - 1) * clutter_hz_ * since_near_us_ * 1e-6;
-    since_near_us_ = 0;
-    for_more_ = std::max(for_more_ + more, 0.0);
-    for_noise_ = std::max(for_noise_ - more, 0.0);
-    if (!is_steady()) {
+    const double since_near_us = std::exchange(since_near_us_, 0);
+    if (!is_steady_) {
         for_more_ = for_noise_ = 0;
         is_noise_alone_ = false;
-    } else if (is_noise_alone_ && for_more_ > surely) {
+        return;
+    }
+    const double more =
+        log_more_than_noise - (more_than_noise - 1) * clutter_hz_ * since_near_us * 1e-6;
+    for_more_ = std::max(for_more_ + more, 0.0);
+    for_noise_ = std::max(for_noise_ - more, 0.0);
+    if (is_noise_alone_ && for_more_ > surely) {
         is_noise_alone_ = false;
         for_noise_ = 0;
     } else if (!is_noise_alone_ && for_noise_ > surely) {
@@ -189,6 +193,7 @@ void Clutter::close_bin(std::int64_t t_us) {
     if (is_first || missed_us > bin_us) {  // A silence is no noise.
         bins_ = 0;
         bin_mean_ = bin_variance_ = bin_events_ = 0;
+        is_steady_ = false;
         return;
     }
     bins_ = std::min(bins_ + 1, bins_remembered);
@@ -196,6 +201,16 @@ void Clutter::close_bin(std::int64_t t_us) {
     bin_mean_ += off / bins_;
     bin_variance_ += (off * (bin_events_ - bin_mean_) - bin_variance_) / bins_;
     bin_events_ = 0;
+    is_steady_ = seems_steady();
+}
+
+bool Clutter::seems_steady() const {
+    const double enough = bin_mean_ > many_events ? least_bins_of_many : least_bins;
+    if (bins_ < enough || bin_mean_ < few_events) return false;
+    const double left = far_hz_[0] * whole_.far_area_px2[1];
+    const double right = far_hz_[1] * whole_.far_area_px2[0];
+    return bin_variance_ < most_dispersion * bin_mean_ && left < most_uneven * right &&
+           right < most_uneven * left;
 }
 
 void Clutter::fold(std::int64_t t_us) {
@@ -218,11 +233,12 @@ void Clutter::fold(std::int64_t t_us) {
                           std::max(whole_.far_area_px2[side], 1.0) * whole_.near_width_px[side];
         clutter_hz += beside_hz[side] * near_px;
     }
+    is_steady_ = seems_steady();
     clutter_hz_ = clutter_hz;
     const double near_px2 = (whole_.near_width_px[0] + whole_.near_width_px[1]) * near_px;
     const double of_px_hz = clutter_hz / std::max(near_px2, 1.0);
     noise_hz_ = of_px_hz;
-    is_swamped_ = is_steady() && of_px_hz > (is_swamped_ ? 0.75 : 1) * swamping_hz &&
+    is_swamped_ = is_steady_ && of_px_hz > (is_swamped_ ? 0.75 : 1) * swamping_hz &&
                   whole_.own_share < (is_swamped_ ? surfaced_share : swamped_share);
     const double own_hz = std::max({near_hz - clutter_hz, 0.1 * near_hz, 1e-3});
     for (std::size_t side = 0; side < 2; ++side) standing_density_[side] = beside_hz[side] / own_hz;

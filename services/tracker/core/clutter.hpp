@@ -41,9 +41,11 @@ class Clutter {
     /// An event on the contour, counted or not.
     void pass_near() {
         weigh_noise();
-        if (++near_count_ <= near_window_events) return;
-        near_time_us_ *= near_window_events / near_count_;
-        near_count_ = near_window_events;
+        if (near_count_ < near_window_events) {
+            ++near_count_;
+        } else {
+            near_time_us_ *= near_window_events / (near_window_events + 1);
+        }
     }
     /// An event on this piece that is the object's with probability `share`.
     void count_near(std::int32_t piece, double share);
@@ -72,14 +74,7 @@ class Clutter {
 
     /// … what comes beside it comes as chance has it, everywhere alike; not as other things that
     /// come and go on one side.
-    [[nodiscard]] bool is_steady() const {
-        const double enough = bin_mean_ > many_events ? least_bins_of_many : least_bins;
-        if (bins_ < enough || bin_mean_ < few_events) return false;
-        const double left = far_hz_[0] * whole_.far_area_px2[1];
-        const double right = far_hz_[1] * whole_.far_area_px2[0];
-        return bin_variance_ < most_dispersion * bin_mean_ && left < most_uneven * right &&
-               right < most_uneven * left;
-    }
+    [[nodiscard]] bool is_steady() const { return is_steady_; }
 
     /// Whether steady noise of 200 Hz a pixel and more leaves next to nothing of what is on the
     /// contour to the object; until half of it is.
@@ -114,6 +109,7 @@ class Clutter {
     }
     void weigh_noise();
     void find_facings(const Contour& contour);
+    [[nodiscard]] bool seems_steady() const;
     void fold(std::int64_t t_us);
     void close_bin(std::int64_t t_us);
 
@@ -155,6 +151,7 @@ class Clutter {
     double bin_mean_ = 0;
     double bin_variance_ = 0;
     double bins_ = 0;
+    bool is_steady_ = false;
     std::int64_t bin_end_us_ = 0;
 };
 

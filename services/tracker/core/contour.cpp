@@ -90,16 +90,23 @@ Contour::Contour(const Shape& shape) {
     const std::vector<Edge> edges =
         shape.edges.empty() ? inferred_edges(shape.points_px) : shape.edges;
     std::vector<Piece> pieces;
-    std::vector<bool> touched(points.size(), false);
+    std::vector<std::vector<std::uint16_t>> ending(points.size());
     for (const Edge& edge : edges) {
         const Piece& from = points[edge.from];
         const Piece& to = points[edge.to];
+        ending[edge.from].push_back(static_cast<std::uint16_t>(pieces.size()));
+        ending[edge.to].push_back(static_cast<std::uint16_t>(pieces.size()));
         pieces.push_back({from.ax, from.ay, to.ax, to.ay});
         length_px_ += std::hypot(to.ax - from.ax, to.ay - from.ay);
-        touched[edge.from] = touched[edge.to] = true;
     }
+    ending_from_.push_back(0);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!touched[i]) pieces.push_back(points[i]);
+        if (ending[i].empty()) {
+            ending[i].push_back(static_cast<std::uint16_t>(pieces.size()));
+            pieces.push_back(points[i]);
+        }
+        ending_.insert(ending_.end(), ending[i].begin(), ending[i].end());
+        ending_from_.push_back(static_cast<std::uint32_t>(ending_.size()));
     }
     const double finest_cell_px =
         std::clamp(cells_of_piece * length_px_ / static_cast<double>(pieces.size()),

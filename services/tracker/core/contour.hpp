@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "services/tracker/core/candidate_grid.hpp"
@@ -28,6 +30,11 @@ class Contour {
 
     [[nodiscard]] const CandidateGrid& points() const { return points_; }
     [[nodiscard]] const CandidateGrid& pieces() const { return pieces_; }
+    /// The pieces that end at this point, one at least.
+    [[nodiscard]] std::span<const std::uint16_t> pieces_at(std::int32_t point) const {
+        const auto i = static_cast<std::size_t>(point);
+        return {&ending_[ending_from_[i]], ending_from_[i + 1] - ending_from_[i]};
+    }
 
     /// Whether the shape came with closed outlines; edges out of a recording run anyhow.
     [[nodiscard]] bool is_outline() const { return is_outline_; }
@@ -66,6 +73,8 @@ class Contour {
     double radius_px_ = 0;
     CandidateGrid points_;
     CandidateGrid pieces_;
+    std::vector<std::uint32_t> ending_from_;  // of each point, where its pieces begin
+    std::vector<std::uint16_t> ending_;
 };
 
 /// The edges that a contour without edges gets.

@@ -8,8 +8,8 @@
 namespace pursuit::tracker {
 namespace {
 
-// What stays of a window's counts when the next is closed: some 400 events are remembered.
-constexpr double kept_share = 0.875;
+// After so many events this much stays of what was counted before.
+constexpr double memory_events = 375;
 
 // Also a part that moves along itself makes some events.
 constexpr double sideways_share = 0.1;
@@ -134,6 +134,7 @@ void Cover::close_window(const Outline& outline, const Pose& pose, const Velocit
         expected += expected_[i];
     }
     double covered = 0;
+    const double kept_share = std::exp(-events_ / memory_events);
     for (std::size_t i = 0; i < sectors; ++i) {
         if (counted_[i] * expected >= 0.25 * expected_[i] * counted) covered += expected_[i];
         counted_[i] *= kept_share;

@@ -17,15 +17,19 @@ namespace pursuit::tracker {
 /// without the events that they should make.
 class Cover {
  public:
+    /// Of nothing: there is nothing to be counted.
+    Cover() = default;
     explicit Cover(const Contour& contour);
 
     void restart();
 
-    /// An event on this piece of the contour; true where close_window() is to be called now.
-    [[nodiscard]] bool count(std::int32_t piece) {
+    /// An event on this piece of the contour.
+    void count(std::int32_t piece) {
         ++counted_[sector_of_[static_cast<std::size_t>(piece)]];
-        return ++events_ >= window_events;
+        ++events_;
     }
+    /// Whether enough were counted for close_window().
+    [[nodiscard]] bool is_due() const { return events_ >= window_events; }
     /// Weighs what was counted, under this pose and velocity. Nothing is expected of what the
     /// outline says is hidden.
     void close_window(const Outline& outline, const Pose& pose, const Velocity& velocity);

@@ -16,8 +16,10 @@ struct Approach {
     double distance_px = std::numeric_limits<double>::infinity();  ///< Infinite beyond the gate.
     double clutter = 0;  ///< Density of events that are no object's, 1/px.
 
-    double contour_px = std::numeric_limits<double>::infinity();  ///< To the contour.
-    std::int32_t piece = -1;                                      ///< Of the contour, the nearest.
+    /// To the contour, and which piece of it; where points pull, the nearest that ends at the
+    /// point.
+    double contour_px = std::numeric_limits<double>::infinity();
+    std::int32_t piece = -1;
 
     [[nodiscard]] bool is_within() const {
         return distance_px < std::numeric_limits<double>::infinity();

@@ -38,8 +38,11 @@ void GradientEstimator::measure_extent() {
 }
 
 void GradientEstimator::lay_out() {
-    contour_.fit(pose_.a, parameters_.gate_px);
-    if (pull_ == Pull::point) contour_.fit_points(pose_.a, parameters_.gate_px);
+    if (pull_ == Pull::point) {
+        contour_.fit_points(pose_.a, parameters_.gate_px);
+    } else {
+        contour_.fit(pose_.a, parameters_.gate_px);
+    }
     is_laid_out_ = transform_ == TransformKind::isometry;
 }
 
@@ -52,9 +55,11 @@ Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     CandidateGrid::Nearest on_contour;
     CandidateGrid::Nearest nearest;
     const auto look_up = [&](double x, double y, const auto& metric) {
-        on_contour = contour_.pieces().nearest(x, y, metric);
-        if (on_contour.piece < 0 || on_contour.squared_px > gate2) return;  // no point is nearer
-        nearest = wants_points ? contour_.points().nearest(x, y, metric) : on_contour;
+        nearest = (wants_points ? contour_.points() : contour_.pieces()).nearest(x, y, metric);
+        if (nearest.piece < 0 || nearest.squared_px > gate2) return;
+        on_contour = wants_points ? contour_.pieces().nearest_among(
+                                        contour_.pieces_at(nearest.piece), x, y, metric)
+                                  : nearest;
     };
     const Eigen::Matrix2d& a = pose_.a;
     if (transform_ == TransformKind::isometry) {

@@ -22,9 +22,9 @@ class Health {
 
     Health() = default;
 
-    /// An event of those within the gate; `is_sharp` within a quarter of it, `is_noise` where noise
-    /// alone comes.
-    void count(bool is_sharp, std::int64_t t_us, bool is_noise = false) {
+    /// Some events of those within the gate, the last at this time: how many of them within a
+    /// quarter of it; `is_noise` where noise alone comes.
+    void count(int sharp, int all, std::int64_t t_us, bool is_noise = false) {
         if (events_ > 0) {
             const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
             recent_ *= fade_.over(t_us - t_us_);
@@ -34,22 +34,22 @@ class Health {
             }
         }
         t_us_ = t_us;
-        recent_ += 1;
-        events_ = std::min(events_ + 1, window_events);
+        recent_ += all;
+        events_ = std::min(events_ + all, window_events);
         is_quiet_ = is_noise || recent_ < own_rate_ / 4;
         if (!is_quiet_) {
             // Over the last 17 ms where events are many: noise that hides most of them is steady.
             window_ = std::clamp(recent_ / 3, window_events, most_events);
-            sharpness_ += (static_cast<double>(is_sharp) - sharpness_) / window_;
+            sharpness_ += (sharp - all * sharpness_) / window_;
             if (sharpness_ > begin_of_fit) {
-                usual_count_ = std::min(usual_count_ + 1, usual_events);
-                usual_sharpness_ += (sharpness_ - usual_sharpness_) / usual_count_;
+                usual_count_ = std::min(usual_count_ + all, usual_events);
+                usual_sharpness_ += all * (sharpness_ - usual_sharpness_) / usual_count_;
             }
             quiet_sharpness_ = nothing_fits;
             lively_t_us_ = t_us;
             return;
         }
-        quiet_sharpness_ += (static_cast<double>(is_sharp) - quiet_sharpness_) / window_events;
+        quiet_sharpness_ += (sharp - all * quiet_sharpness_) / window_events;
         if (!is_noise && quiet_sharpness_ > good) own_rate_ = recent_;  // It moves, only slower.
     }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "services/tracker/core/where_to_look.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
@@ -128,7 +130,7 @@ void Seeker::end(std::int64_t t_us, Track& track) {
 // Whether the object is where it is thought to be, or rather elsewhere.
 void Seeker::end_check(std::int64_t t_us, Track& track) {
     Doubt::Finding finding =
-        track.compare(search_.found(), checked_.pose, search_.score_of(checked_.pose));
+        compare(track.contour(), search_.found(), checked_.pose, search_.score_of(checked_.pose));
     if (finding.is_told && !finding.is_here) {
         finding.gain += explained_weight * (search_.explained(search_.found()->pose) -
                                             search_.explained(checked_.pose));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/track.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "services/tracker/core/where_to_look.hpp"
 
 namespace pursuit::tracker {
 namespace {
@@ -22,35 +22,12 @@ constexpr std::int64_t trial_us = 80'000;
 constexpr std::int64_t unaided_us = 30'000;
 constexpr double trial_gate_px = 6;
 
-// Where to look for an object that was lost: px, rad and log scale either way.
-constexpr double near_reach_px = 30;
-constexpr double farthest_reach_px = 80;
-constexpr double near_angle_rad = 0.6;
-constexpr double near_log_scale = 0.1;
-constexpr double any_log_scale = 0.27;
-constexpr double check_reach_px = 30;
-constexpr double check_angle_rad = 0.5;
-constexpr double uncertain_share = 0.1;  // of the way gone unseen
-
-// After a gap between streams: the usual distance, and how much farther it is looked for as time
-// goes on. What looks the same and was far away is taken only when nothing is found near.
-constexpr double adrift_px = 150;
-constexpr double adrift_px_s = 300;
-
-// The events must speak against the pose for this long, less what they speak for it twice: models
-// taken from a real recording, and the first moments of slow objects among noise, do so for a
-// while.
-constexpr std::int64_t let_go_after_us = 60'000;
-constexpr std::int64_t longest_step_us = 20'000;
-
 // So many events that should have come and have not: it was silent, all at once.
 constexpr double silent_events = 30;
 constexpr std::int64_t silent_us = 3'000;
 constexpr double unseen_way_px = 5;  // and may have gone so far meanwhile
 constexpr double same_px = 2.5;
 constexpr double checked_share = 0.7;
-constexpr double least_told = 0.45;       // score
-constexpr double extracted_margin = 0.2;  // of score; for models extracted from a recording
 constexpr int start_confirmations = 3;
 constexpr int found_confirmations = 2;
 
@@ -58,14 +35,11 @@ constexpr int found_confirmations = 2;
 constexpr double covered_share = 0.2;
 constexpr double uncovered_share = 0.3;
 
-// The velocity that a covered object goes on at is over this time.
-constexpr double slow_memory_s = 0.8;
+// So much of it must show for its velocity to be learnt.
+constexpr double least_seen_share = 0.7;
+
 // Longer than this a covered object is not believed to have gone on.
 constexpr double longest_covered_s = 4;
-
-// ρ is over so many events.
-constexpr double tally_events = 2000;
-constexpr std::int64_t tally_every_us = 16'000;
 
 constexpr std::int64_t believed_after_us = 100'000;
 
@@ -77,8 +51,7 @@ double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 }  // namespace
 
-Track::Track(const RegisteredObject& object, const TrackerParameters& tracker)
-    : tracker_(tracker), slow_(slow_memory_s) {
+Track::Track(const RegisteredObject& object, const TrackerParameters& tracker) : tracker_(tracker) {
     restart(object);
 }
 
@@ -91,7 +64,7 @@ void Track::make_for(const RegisteredObject& object) {
         make_estimator(object.estimator, object.transform, object.shape, object.parameters);
     acquisition_ = std::make_unique<Acquisition>(object);
     contour_ = Contour(object.shape);
-    cover_ = std::make_unique<Cover>(contour_);
+    grip_.hold(contour_);
     outline_ = Outline(contour_);
     silhouette_ = Silhouette(contour_);
     vanishing_ = Vanishing(silhouette_, contour_.radius_px());
@@ -102,7 +75,7 @@ void Track::replace(const RegisteredObject& object) {
     const PoseRecord last = record(last_event_t_us_);
     make_for(object);
     estimator_->restart(constrained(last.pose, transform_), last.velocity);
-    covered_.pose = constrained(covered_.pose, transform_);
+    hidden_way_.constrain(transform_);
     if (is_acquiring_) acquisition_->begin(constrained(last.pose, transform_));
     for (Coast& good : good_) good.pose = constrained(good.pose, transform_);
 }
@@ -125,17 +98,13 @@ void Track::restart(const RegisteredObject& object) {
     trial_until_us_ = -1;
     visible_share_ = 1;
     find_what_to_watch();
-    events_per_px2_ = 2;
-    tallied_events_ = tallied_px2_ = tally_s_ = 0;
-    tallied_us_ = -1;
-    slow_.restart();
+    tally_.restart();
+    hidden_way_.restart();
     is_fresh_ = true;
-    against_us_ = 0;
     heard_us_ = -1;
     is_silent_ = false;
     begin_doubt(0, start_confirmations, 0);
-    health_.restart();
-    cover_->restart();
+    grip_.restart();
     estimator_->restart(object.start.pose, object.start.velocity);
     for (Coast& good : good_) good = {-1, object.start.pose, object.start.velocity};
 }
@@ -147,13 +116,13 @@ void Track::begin_stream() {
     if (doubt_.is_open()) begin_doubt(0, start_confirmations, 0);
     // A start pose that no event has moved yet was given for the stream that begins.
     if (is_searching_ || is_fresh_) return;
-    slow_.restart();
-    tallied_us_ = -1;
+    hidden_way_.restart();
+    tally_.begin_stream();
     trial_until_us_ = -1;
     acquired_us_ = doubted_us_ = never_us;
     emerged_us_ = -1;
     // How long the sensor was away is not known: the last good pose, at rest.
-    const Pose last = is_covered_     ? covered_.pose
+    const Pose last = is_covered_     ? hidden_way_.last().pose
                       : is_acquiring_ ? good_[1].pose
                                       : estimator_->pose();
     is_covered_ = false;
@@ -180,7 +149,7 @@ void Track::remember_good(std::int64_t t_us) {
 void Track::lose_grip(std::int64_t t_us) {
     is_acquiring_ = true;
     does_not_fit_ = false;
-    against_us_ = 0;
+    grip_.forgive();
     grip_lost_us_ = t_us;
     if (good_[1].t_us < 0) good_[1].t_us = t_us;
     acquisition_began_us_ = t_us;
@@ -188,14 +157,22 @@ void Track::lose_grip(std::int64_t t_us) {
     acquisition_->begin(coasted(t_us));
 }
 
-void Track::weigh(std::int64_t t_us, bool is_noise) {
-    const std::int64_t dt_us = std::clamp<std::int64_t>(t_us - weighed_us_, 0, longest_step_us);
-    weighed_us_ = t_us;
-    const bool is_against = !is_noise && health_.is_settled() &&
-                            health_.is_against(parameters_.let_go_sharpness, cover_->share());
-    if (!is_against && against_us_ == 0) return;
-    against_us_ = std::max<std::int64_t>(against_us_ + (is_against ? dt_us : -2 * dt_us), 0);
-    if (against_us_ > 0) doubted_us_ = t_us;
+void Track::weigh(std::int64_t t_us) {
+    const bool is_noise = estimator_->sees_noise_alone();
+    vanishing_.count_own(t_us, grip_.sharp(), grip_.astray());
+    grip_.weigh(t_us, is_noise, parameters_.let_go_sharpness);
+    if (grip_.is_against()) doubted_us_ = t_us;
+    const Health& health = grip_.health();
+    if (parameters_.let_go_sharpness > 0 && grip_.is_lost()) {
+        lose_grip(t_us);
+        does_not_fit_ = !health.is_fair();
+        return;
+    }
+    if (health.is_settled() && health.is_fair()) emerged_us_ = -1;
+    if (doubt_.is_open() && estimator_->stands_out()) doubt_.settle();
+    const bool is_old = good_[0].t_us < 0 || t_us - good_[0].t_us >= keep_every_us;
+    const bool is_good = health.is_fair() && !health.is_quiet() && !grip_.is_against();
+    if (is_old && is_good && !doubt_.is_open()) remember_good(t_us);
 }
 
 void Track::acquire(std::int64_t t_us) {
@@ -207,8 +184,7 @@ void Track::acquire(std::int64_t t_us) {
     trial_until_us_ = -1;
     acquired_us_ = t_us;
     emerged_us_ = -1;
-    health_.restart(Health::good);
-    cover_->restart();
+    grip_.restart(Health::good);
     estimator_->restart(acquisition_->pose(), acquisition_->velocity());
     for (Coast& good : good_) good = {t_us, acquisition_->pose(), acquisition_->velocity()};
     heard_us_ = t_us;
@@ -220,61 +196,23 @@ Pose Track::coasted(std::int64_t t_us) const { return good_[1].at(t_us, tracker_
 
 std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) const {
     if (t_us < trial_until_us_) return std::nullopt;
-    SearchRange range;
     if (!is_searching_ && !is_acquiring_) {
-        const bool is_told = !is_covered_ && emerged_us_ < 0 && !health_.is_quiet() &&
+        const bool is_told = !is_covered_ && emerged_us_ < 0 && !grip_.health().is_quiet() &&
                              !estimator_->sees_noise_alone();
         if (!is_told || !doubt_.is_due(t_us)) return std::nullopt;
-        const Coast own{t_us, pose(), estimator_->velocity()};
-        range.checked = own;
-        range.around = own.pose;
-        range.seeds = {own.pose};
-        range.is_check = true;
-        range.since_us = doubt_.since_us();
-        range.reach_px = check_reach_px;
-        range.angle_rad = check_angle_rad;
-        range.usual_distance_px = check_reach_px / 2;
-        // By turns: as it is thought to go, and as if nothing were known.
-        const bool leads_on = doubt_.tries() % 2 == 0;
-        if (leads_on) range.going = own;
-        if (doubt_.before()) {
-            const Coast gone = doubt_.before()->at(t_us, tracker_.coast_s);
-            range.seeds.push_back(gone.pose);
-            range.seeds.push_back(doubt_.before()->pose);
-            if (leads_on) {
-                range.going = gone;
-                range.around = gone.pose;
-            }
-            const double gone_s = seconds(t_us - doubt_.before()->t_us);
-            range.angle_rad += uncertain_share * gone_s * std::abs(gone.velocity.omega_rad_s);
-            range.reach_px +=
-                uncertain_share * gone_s * std::hypot(gone.velocity.vx_px_s, gone.velocity.vy_px_s);
-        }
-        return range;
+        return range_of_check(t_us, {t_us, pose(), estimator_->velocity()}, doubt_,
+                              tracker_.coast_s);
     }
-    if (!is_searching_ && t_us - grip_lost_us_ < unaided_us) return std::nullopt;
-    const double gap_s = seconds(t_us - good_[1].t_us);
-    if (!is_searching_ && !is_adrift_ && gap_s < tracker_.coast_s) {
-        const Velocity& v = good_[1].velocity;
-        range.around = coasted(t_us);
-        range.reach_px = std::min(near_reach_px + 0.3 * gap_s * std::hypot(v.vx_px_s, v.vy_px_s),
-                                  farthest_reach_px);
-        range.angle_rad = near_angle_rad + 0.3 * gap_s * std::abs(v.omega_rad_s);
-        range.log_scale = has_fixed_scale() ? 0 : near_log_scale;
-        range.usual_distance_px = 20;
-        return range;
-    }
-    range.around = is_searching_ ? estimator_->pose() : good_[1].pose;
-    if (!is_adrift_) range.around.t_px << geometry.width / 2.0, geometry.height / 2.0;
-    range.reach_px = std::max(geometry.width, geometry.height);
+    if (is_searching_) return range_of_image(estimator_->pose(), geometry, has_fixed_scale());
+    if (t_us - grip_lost_us_ < unaided_us) return std::nullopt;
+    const Coast& good = good_[1];
     if (is_adrift_) {
         const double adrift_s = adrift_since_us_ < 0 ? 0 : seconds(t_us - adrift_since_us_);
-        range.reach_px = std::min(range.reach_px, adrift_px + adrift_px_s * adrift_s);
+        return range_adrift(good.pose, adrift_s, geometry, has_fixed_scale());
     }
-    range.angle_rad = std::numbers::pi;
-    range.log_scale = has_fixed_scale() ? 0 : any_log_scale;
-    range.usual_distance_px = is_adrift_ ? adrift_px : 1e6;
-    return range;
+    const double gap_s = seconds(t_us - good.t_us);
+    if (gap_s >= tracker_.coast_s) return range_of_image(good.pose, geometry, has_fixed_scale());
+    return range_near(good.at(t_us, tracker_.coast_s), gap_s, has_fixed_scale());
 }
 
 void Track::offer(std::int64_t t_us, const Pose& pose) {
@@ -284,32 +222,13 @@ void Track::offer(std::int64_t t_us, const Pose& pose) {
     acquisition_->begin(constrained(pose, transform_), trial_gate_px);
 }
 
-Doubt::Finding Track::compare(const std::optional<ShapeSearch::Found>& found, const Pose& checked,
-                              double own_score) const {
-    Doubt::Finding finding;
-    finding.is_told = found.has_value();
-    if (!found) return finding;
-    finding.off_px = found->pose.t_px - checked.t_px;
-    const double turned_px =
-        contour_.gyration_px() * (found->pose.a - checked.a).norm() / std::numbers::sqrt2;
-    finding.is_here = std::hypot(finding.off_px.norm(), turned_px) < same_px;
-    finding.is_sure = found->is_sure;
-    // What was extracted from a recording fits in part only, wherever it is.
-    const bool is_worth_it = found->score > least_told;
-    finding.is_told = found->is_sure || (is_worth_it && (contour_.is_outline() || finding.is_here));
-    finding.gain = found->score - own_score - (contour_.is_outline() ? 0 : extracted_margin);
-    return finding;
-}
-
 void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocity) {
     const Pose moved = constrained(pose, transform_);
-    health_.restart(Health::good);
-    cover_->restart();
+    grip_.restart(Health::good);
     acquired_us_ = t_us;
-    against_us_ = 0;
     if (doubt_.since_us() == emerged_at_us_) {
         // It goes on as it did before it was hidden.
-        estimator_->resume(t_us, moved, covered_.velocity, 0);
+        estimator_->resume(t_us, moved, hidden_way_.last().velocity, 0);
     } else {
         estimator_->restart(moved, velocity);
     }
@@ -327,7 +246,7 @@ void Track::begin_doubt(std::int64_t t_us, int confirmations, std::int64_t since
 // Fewer events than it makes: none at all where many should have come.
 bool Track::is_silent(std::int64_t t_us) const {
     const std::int64_t silence_us = t_us - heard_us_;
-    return heard_us_ >= 0 && seconds(silence_us) * health_.usual_rate_hz() > silent_events;
+    return heard_us_ >= 0 && seconds(silence_us) * grip_.health().usual_rate_hz() > silent_events;
 }
 
 void Track::hear(std::int64_t t_us) {
@@ -340,13 +259,17 @@ void Track::hear(std::int64_t t_us) {
 }
 
 Pose Track::pose() const {
-    if (is_covered_) return covered_.pose;
+    if (is_covered_) return hidden_way_.last().pose;
     return is_acquiring_ ? acquisition_->pose() : estimator_->pose();
 }
 
 void Track::reach_time(std::int64_t t_us) {
     if (adrift_since_us_ < 0) adrift_since_us_ = t_us;
     if (is_covered_) return;
+    if (!is_acquiring_ && grip_.is_counting()) weigh(heard_us_);
+    if (!is_acquiring_) {
+        grip_.look_around(t_us, outline_, estimator_->pose(), estimator_->velocity());
+    }
     if (vanishing_.is_gone(t_us)) {
         if (!is_acquiring_) lose_grip(t_us);
         does_not_fit_ = true;
@@ -401,32 +324,20 @@ bool Track::take(const Event& event, double weight) {
         heard_us_ = event.t_us;
         is_silent_ = false;
         const bool is_sharp = distance_px_ < sharp_px_;
-        const bool is_noise = estimator_->sees_noise_alone();
-        health_.count(is_sharp, event.t_us, is_noise);
-        vanishing_.count_own(event.t_us, is_sharp);
-        weigh(event.t_us, is_noise);
-        if (parameters_.let_go_sharpness > 0 && against_us_ > let_go_after_us) {
-            lose_grip(event.t_us);
-            does_not_fit_ = !health_.is_fair();
-            return false;
+        grip_.count(is_sharp);
+        if (grip_.is_due()) {
+            weigh(event.t_us);
+            if (is_acquiring_) return false;
         }
-        if (health_.is_settled() && health_.is_fair()) emerged_us_ = -1;
-        if (doubt_.is_open() && estimator_->stands_out()) doubt_.settle();
         // What is left in a quiet time is mostly noise: it does not move the pose.
-        if (health_.is_quiet()) {
+        if (grip_.health().is_quiet()) {
             estimator_->stand_still();
             return false;
         }
         if (!estimator_->take(weight)) return false;
-        if (piece_ >= 0 && is_sharp) {
-            if (cover_->count(piece_)) {
-                cover_->close_window(outline_, estimator_->pose(), estimator_->velocity());
-            }
+        if (is_sharp && piece_ >= 0) {
+            grip_.count_place(piece_);
             outline_.count(piece_, weight);
-        }
-        const bool is_old = good_[0].t_us < 0 || event.t_us - good_[0].t_us >= keep_every_us;
-        if (is_old && health_.is_fair() && against_us_ == 0 && !doubt_.is_open()) {
-            remember_good(event.t_us);
         }
     }
     last_event_t_us_ = event.t_us;
@@ -450,66 +361,35 @@ double Track::radius_px() const { return contour_.radius_px() * pose().a.norm();
 
 bool Track::can_hide() const {
     return !is_searching_ && !is_acquiring_ && !is_covered_ && !silhouette_.covers_nothing() &&
-           health_.is_settled();
+           grip_.health().is_settled();
 }
 
 bool Track::can_be_hidden() const { return !is_searching_ && !is_acquiring_; }
 
-Track::Going Track::going() const {
-    return {pose().a, is_covered_ ? covered_.velocity : estimator_->velocity()};
-}
-
-double Track::Going::across_px_s(const Outline::Part& part, const Eigen::Vector2d& arm_px) const {
-    const Eigen::Vector2d speed =
-        Eigen::Vector2d(velocity.vx_px_s, velocity.vy_px_s) +
-        velocity.omega_rad_s * Eigen::Vector2d(-arm_px.y(), arm_px.x()) +
-        (velocity.scale_x_rate_per_s + velocity.scale_y_rate_per_s) / 2 * arm_px;
-    const Eigen::Vector2d along = a * part.along_px;
-    return std::abs(along.x() * speed.y() - along.y() * speed.x());
-}
-
-double Track::expected_events(const Outline::Part& part, const Eigen::Vector2d& arm_px) const {
-    return events_per_px2_ * going().across_px_s(part, arm_px) * tally_s_;
+Going Track::going() const {
+    return {pose().a, is_covered_ ? hidden_way_.last().velocity : estimator_->velocity()};
 }
 
 void Track::tally(std::int64_t t_us, bool at_once) {
-    if (!at_once && t_us - tallied_us_ < tally_every_us) return;
-    const double dt_s = tallied_us_ < 0 ? 0 : seconds(t_us - tallied_us_);
-    tallied_us_ = t_us;
-    tally_s_ = dt_s;
+    if (!at_once && !tally_.is_due(t_us)) return;
+    tally_.begin(t_us);
     if (is_covered_) {
-        covered_.pose.t_px +=
-            dt_s * Eigen::Vector2d(covered_.velocity.vx_px_s, covered_.velocity.vy_px_s);
-        covered_.pose.a = rotation(covered_.velocity.omega_rad_s * dt_s) * covered_.pose.a;
-        covered_.pose = constrained(covered_.pose, transform_);
-        covered_.t_us = t_us;
+        hidden_way_.go_on(t_us, tally_.over_s(), transform_);
         return;
     }
-    if (is_searching_ || is_acquiring_ || !health_.is_fair()) return;
-    const Going now = going();
-    for (const Outline::Part& part : outline_.parts()) {
-        if (part.is_hidden) continue;
-        tallied_events_ += part.events;
-        tallied_px2_ += now.across_px_s(part, now.a * part.middle_px) * dt_s;
+    if (is_searching_ || is_acquiring_ || !grip_.health().is_fair()) return;
+    tally_.learn(outline_, going());
+    if (visible_share_ >= least_seen_share && hidden_way_.is_due(t_us)) {
+        hidden_way_.learn(t_us, pose());
     }
-    if (tallied_events_ > tally_events) {
-        tallied_px2_ *= tally_events / tallied_events_;
-        tallied_events_ = tally_events;
-    }
-    // With what is usual for a start.
-    events_per_px2_ = std::clamp((tallied_events_ + 200) / (tallied_px2_ + 100), 0.2, 12.0);
-    if (visible_share_ < 0.7 || !slow_.is_due(t_us)) return;
-    const double theta = tracker::theta_rad(pose().a);
-    slow_theta_rad_ += std::remainder(theta - slow_theta_rad_, 2 * std::numbers::pi);
-    slow_.add(t_us, {pose().t_px.x(), pose().t_px.y(), slow_theta_rad_});
 }
 
 void Track::see(std::int64_t t_us) {
     double seen = 0;
     double whole = 0;
-    const Velocity v = is_covered_ ? covered_.velocity : estimator_->velocity();
-    const double speed_px_s = std::hypot(v.vx_px_s, v.vy_px_s, v.omega_rad_s * radius_px()) + 1e-9;
     const Going now = going();
+    const Velocity& v = now.velocity;
+    const double speed_px_s = std::hypot(v.vx_px_s, v.vy_px_s, v.omega_rad_s * radius_px()) + 1e-9;
     for (const Outline::Part& part : outline_.parts()) {
         const double shows = now.across_px_s(part, now.a * part.middle_px) / speed_px_s +
                              0.1 * (now.a * part.along_px).norm();
@@ -532,20 +412,18 @@ void Track::see(std::int64_t t_us) {
 void Track::cover(std::int64_t t_us) {
     PoseRecord now;
     estimator_->describe(t_us, now);
-    covered_ = {t_us, now.pose, now.velocity};
-    const auto slow = slow_.per_s();
-    if (!slow.isZero()) covered_.velocity = {slow(0), slow(1), slow(2), 0, 0};
+    hidden_way_.begin({t_us, now.pose, now.velocity});
     is_covered_ = true;
     vanishing_.restart();
     grip_lost_us_ = t_us;
-    against_us_ = 0;
+    grip_.forgive();
 }
 
 // It never came out again: it is looked for as one that was lost.
 void Track::give_up(std::int64_t t_us) {
     is_covered_ = false;
     emerged_us_ = -1;
-    good_[0] = good_[1] = covered_;
+    good_[0] = good_[1] = hidden_way_.last();
     const std::int64_t covered_since_us = grip_lost_us_;
     lose_grip(t_us);
     grip_lost_us_ = covered_since_us;
@@ -558,15 +436,15 @@ void Track::show_all(std::int64_t t_us) {
 
 void Track::uncover(std::int64_t t_us) {
     is_covered_ = false;
-    health_.restart(Health::good);
-    cover_->restart();
-    const double way_px = seconds(t_us - grip_lost_us_) *
-                          std::hypot(covered_.velocity.vx_px_s, covered_.velocity.vy_px_s);
+    grip_.restart(Health::good);
+    const Coast& gone = hidden_way_.last();
+    const double way_px =
+        seconds(t_us - grip_lost_us_) * std::hypot(gone.velocity.vx_px_s, gone.velocity.vy_px_s);
     emerged_us_ = t_us;
     emerges_ = true;
     emerged_at_us_ = t_us;
-    estimator_->resume(t_us, covered_.pose, covered_.velocity, way_px);
-    for (Coast& good : good_) good = {t_us, covered_.pose, covered_.velocity};
+    estimator_->resume(t_us, gone.pose, gone.velocity, way_px);
+    for (Coast& good : good_) good = {t_us, gone.pose, gone.velocity};
 }
 
 TrackState Track::state_at(std::int64_t t_us) const {
@@ -584,11 +462,8 @@ TrackState Track::state_at(std::int64_t t_us) const {
 double Track::confidence_at(std::int64_t t_us) const {
     if (is_searching_ || is_acquiring_ || is_covered_ || emerged_us_ >= 0) return 0;
     if (estimator_->is_swamped() || vanishing_.is_suspected()) return 0;
-    const double sharp = std::clamp((health_.sharpness() - 0.25) / 0.4, 0.0, 1.0);
-    const double usual = std::clamp((health_.relative_sharpness() - 0.6) / 0.25, 0.0, 1.0);
-    const double covered = std::clamp((cover_->share() - 0.4) / 0.2, 0.0, 1.0);
-    const double fit = std::min({sharp, usual, covered});
-    const double silent_s = seconds(t_us - health_.lively_t_us()) - sure_s;
+    const double fit = grip_.fit();
+    const double silent_s = seconds(t_us - grip_.health().lively_t_us()) - sure_s;
     const double believed = silent_s > 0 ? fit * std::exp(-silent_s / doubt_s) : fit;
     // What was found again, or did not fit, is believed when it has fitted for a while; what is
     // silent may have gone on meanwhile.
@@ -613,10 +488,8 @@ PoseRecord Track::record(std::int64_t t_us) const {
         record.velocity = good_[1].velocity;
     }
     if (is_covered_) {
-        record.pose = covered_.pose;
-        record.velocity = covered_.velocity;
-        record.pose.t_px += seconds(t_us - covered_.t_us) *
-                            Eigen::Vector2d(record.velocity.vx_px_s, record.velocity.vy_px_s);
+        record.pose = hidden_way_.pose_at(t_us);
+        record.velocity = hidden_way_.last().velocity;
     }
     record.theta_rad = theta_rad(record.pose.a);
     record.scale_x = scale_x(record.pose.a);
@@ -624,7 +497,7 @@ PoseRecord Track::record(std::int64_t t_us) const {
     record.confidence = static_cast<float>(confidence_at(t_us));
     record.events_used = events_used_;
     if (!is_searching_ && !is_acquiring_ && !is_covered_) {
-        record.event_rate_hz = static_cast<float>(health_.rate_hz(t_us));
+        record.event_rate_hz = static_cast<float>(grip_.health().rate_hz(t_us));
     }
     return record;
 }
@@ -637,7 +510,7 @@ TrackSnapshot Track::snapshot() const {
     snapshot.t_us = is_acquiring_ ? good_[1].t_us : last_event_t_us_;
     PoseRecord last;
     estimator_->describe(last_event_t_us_, last);
-    const Coast* coast = is_covered_ ? &covered_ : is_acquiring_ ? &good_[1] : nullptr;
+    const Coast* coast = is_covered_ ? &hidden_way_.last() : is_acquiring_ ? &good_[1] : nullptr;
     snapshot.pose = coast ? coast->pose : last.pose;
     snapshot.velocity = coast ? coast->velocity : last.velocity;
     return snapshot;

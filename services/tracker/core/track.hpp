@@ -7,17 +7,17 @@
 
 #include "services/common/event.hpp"
 #include "services/tracker/core/acquisition.hpp"
-#include "services/tracker/core/cover.hpp"
 #include "services/tracker/core/doubt.hpp"
 #include "services/tracker/core/estimator.hpp"
-#include "services/tracker/core/health.hpp"
+#include "services/tracker/core/grip.hpp"
+#include "services/tracker/core/hidden_way.hpp"
 #include "services/tracker/core/outline.hpp"
 #include "services/tracker/core/pose_record.hpp"
 #include "services/tracker/core/reach_map.hpp"
 #include "services/tracker/core/registration.hpp"
 #include "services/tracker/core/shape_search.hpp"
 #include "services/tracker/core/silhouette.hpp"
-#include "services/tracker/core/slope.hpp"
+#include "services/tracker/core/tally.hpp"
 #include "services/tracker/core/vanishing.hpp"
 
 namespace pursuit::tracker {
@@ -77,9 +77,6 @@ class Track {
     [[nodiscard]] std::optional<SearchRange> wanted(std::int64_t t_us, Geometry geometry) const;
     /// The object may be here: it is tried.
     void offer(std::int64_t t_us, const Pose& pose);
-    /// What a search around `checked`, where the track was, says about it.
-    [[nodiscard]] Doubt::Finding compare(const std::optional<ShapeSearch::Found>& found,
-                                         const Pose& checked, double own_score) const;
     /// True where the object is to be moved to what was found.
     bool take_finding(std::int64_t t_us, const Doubt::Finding& finding) {
         return doubt_.take(t_us, finding);
@@ -104,13 +101,15 @@ class Track {
     /// How many events a part of the contour with this arm (image) should have made in the time
     /// that the last tally was over.
     [[nodiscard]] double expected_events(const Outline::Part& part,
-                                         const Eigen::Vector2d& arm_px) const;
+                                         const Eigen::Vector2d& arm_px) const {
+        return tally_.expected_events(going(), part, arm_px);
+    }
     /// Learns how many events the motion makes from what the outline has counted; at once, or when
     /// there is enough of it.
     void tally(std::int64_t t_us, bool at_once);
     /// What the tally was over is done with.
     void end_tally(std::int64_t t_us) {
-        if (tallied_us_ == t_us) outline_.clear();
+        if (tally_.t_us() == t_us) outline_.clear();
     }
     /// The outline knows what is hidden.
     void see(std::int64_t t_us);
@@ -131,8 +130,8 @@ class Track {
     void hear(std::int64_t t_us);
     /// Of its contour, in the mean.
     [[nodiscard]] double speed_px_s() const;
-    /// Whether the events, now included, speak against the pose.
-    void weigh(std::int64_t t_us, bool is_noise);
+    /// What the events counted since the last time, until t_us, say about the pose.
+    void weigh(std::int64_t t_us);
     void lose_grip(std::int64_t t_us);
     /// To be called when what it depends on has changed.
     void find_what_to_watch();
@@ -142,15 +141,6 @@ class Track {
     void cover(std::int64_t t_us);
     void uncover(std::int64_t t_us);
     void give_up(std::int64_t t_us);
-    /// The pose's A and the velocity, for all parts of the outline.
-    struct Going {
-        Eigen::Matrix2d a;
-        Velocity velocity;
-
-        /// How fast a part with this arm (image) moves across itself, times its length.
-        [[nodiscard]] double across_px_s(const Outline::Part& part,
-                                         const Eigen::Vector2d& arm_px) const;
-    };
     [[nodiscard]] Going going() const;
     [[nodiscard]] Pose coasted(std::int64_t t_us) const;
     [[nodiscard]] TrackState state_at(std::int64_t t_us) const;
@@ -165,20 +155,14 @@ class Track {
     TrackerParameters tracker_;
     std::unique_ptr<Estimator> estimator_;
     std::unique_ptr<Acquisition> acquisition_;
-    Health health_;
+    Grip grip_;
     Doubt doubt_;
-    std::unique_ptr<Cover> cover_;
     Contour contour_;
     Outline outline_;
     Silhouette silhouette_;
     Vanishing vanishing_;
-    Slope<3> slow_;  // x, y, θ
-    double slow_theta_rad_ = 0;
-    double events_per_px2_ = 2;  // ρ: of contour length times the way across it
-    double tallied_events_ = 0;
-    double tallied_px2_ = 0;
-    double tally_s_ = 0;  // what the last one was over
-    std::int64_t tallied_us_ = -1;
+    HiddenWay hidden_way_;
+    Tally tally_;
     double visible_share_ = 1;
     bool watches_inside_ = false;
     double sharp_px_ = 0;  // nearer than this an event lies on the contour
@@ -188,12 +172,9 @@ class Track {
     std::int64_t adrift_since_us_ = -1;
     bool is_searching_ = false;
     bool is_acquiring_ = false;
-    bool is_fresh_ = true;         // since the restart no event was taken
-    bool does_not_fit_ = false;    // the grip was lost to events of something else
-    std::int64_t against_us_ = 0;  // for so long the events have spoken against the pose
-    std::int64_t weighed_us_ = 0;
+    bool is_fresh_ = true;       // since the restart no event was taken
+    bool does_not_fit_ = false;  // the grip was lost to events of something else
     Coast good_[2];  // the last, and the one before: older than what made the events mismatch
-    Coast covered_;
     std::int64_t grip_lost_us_ = 0;
     std::int64_t acquisition_began_us_ = 0;
     std::int64_t trial_until_us_ = -1;  // of an offered pose

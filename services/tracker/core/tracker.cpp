@@ -143,28 +143,33 @@ class Tracker::Impl {
         }
 
         // Whose it is (section 3.3), and the steps that follow from it (3.2).
+        bool is_used = false;
         if (count == 1 && !strategy_listens) {
-            claims[0].weight = 1;
+            is_used = step(event, claimants[0], 1, sink);
         } else {
             give(event, {claims.data(), count});
-        }
-        bool is_used = false;
-        for (std::size_t i = 0; i < count; ++i) {
-            if (!(claims[i].weight > 0)) continue;
-            Track& track = tracks[claimants[i]];
-            const bool is_taken = track.take(event, claims[i].weight);
-            // One that lost its grip is asked about events from farther away.
-            if (!is_taken || track.events_used() % placed_every_events == 0) {
-                reach_map.place(claimants[i], track.reach(next_round_us));
-            }
-            if (!is_taken) continue;
-            is_used = true;
-            if (strategy_listens) strategy->used(event, claims[i]);
-            if (options.emit_updates) {
-                sink.update({claims[i].object_id, stream_id, event.t_us, track.pose()});
+            for (std::size_t i = 0; i < count; ++i) {
+                if (!(claims[i].weight > 0)) continue;
+                if (!step(event, claimants[i], claims[i].weight, sink)) continue;
+                is_used = true;
+                if (strategy_listens) strategy->used(event, claims[i]);
             }
         }
         ++(is_used ? counters.events_used : counters.events_unused);
+    }
+
+    // The event moves the pose of this track; false where it did not.
+    bool step(const Event& event, std::size_t index, double weight, PoseSink& sink) {
+        Track& track = tracks[index];
+        const bool is_taken = track.take(event, weight);
+        // One that lost its grip is asked about events from farther away.
+        if (!is_taken || track.events_used() % placed_every_events == 0) {
+            reach_map.place(index, track.reach(next_round_us));
+        }
+        if (is_taken && options.emit_updates) {
+            sink.update({track.object_id(), stream_id, event.t_us, track.pose()});
+        }
+        return is_taken;
     }
 
     // Every track learns what time it is, and the map where it is.

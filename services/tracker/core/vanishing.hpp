@@ -57,16 +57,18 @@ class Vanishing {
         note(event, cell, {column, row}, std::abs(determinant));
     }
 
-    /// An event within the gate of the contour; is_sharp where it is within a quarter of the gate.
-    void count_own(std::int64_t t_us, bool is_sharp) {
+    /// Some events within the gate of the contour, the last at this time: so many of them within a
+    /// quarter of the gate, and so many not.
+    void count_own(std::int64_t t_us, int sharp, int astray) {
         if (!can_tell()) return;
         reach(t_us);
         // What comes from anywhere makes nothing on the average.
-        const double of_contour = is_sharp ? 1 : -chance / (1 - chance);
+        constexpr double of_astray = chance / (1 - chance);
+        const double of_contour = sharp - of_astray * astray;
         own_.now += of_contour;
         if (is_suspected() && t_us >= suspected_us_ + window_us) {
             own_since_ += of_contour;
-            own_variance_ += of_contour * of_contour;
+            own_variance_ += sharp + of_astray * of_astray * astray;
             const double more = own_since_ - needed_;
             if (more > 0 && more * more >= beyond_chance * beyond_chance * own_variance_) {
                 // It fires all over by itself: what is usual has changed.

@@ -151,6 +151,28 @@ TEST(Contour, infers_the_outline_of_evenly_spaced_points) {
     EXPECT_LE(edges.size(), shape.points_px.size() + 2);
 }
 
+TEST(Contour, names_the_pieces_that_end_at_each_point) {
+    Shape shape;
+    shape.name = "flag and a speck";
+    shape.points_px = {{0, 0}, {0, 10}, {8, 10}, {8, 5}, {0, 5}, {30, 30}};
+    shape.edges = {{0, 4}, {4, 1}, {1, 2}, {2, 3}, {3, 4}};
+    const Contour contour(shape);
+    const auto& pieces = contour.pieces().pieces();
+    for (std::int32_t point = 0; point < 6; ++point) {
+        const Eigen::Vector2f& p = shape.points_px[static_cast<std::size_t>(point)];
+        std::vector<std::uint16_t> ending;
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            const bool from = pieces[i].ax == p.x() && pieces[i].ay == p.y();
+            const bool to = pieces[i].bx == p.x() && pieces[i].by == p.y();
+            if (from || to) ending.push_back(static_cast<std::uint16_t>(i));
+        }
+        const auto named = contour.pieces_at(point);
+        EXPECT_EQ(std::vector(named.begin(), named.end()), ending) << "point " << point;
+    }
+    EXPECT_EQ(contour.pieces_at(4).size(), 3);
+    EXPECT_EQ(contour.pieces_at(5).size(), 1);
+}
+
 TEST(Contour, keeps_a_point_that_no_edge_touches) {
     Shape shape{"three", {{0, 0}, {10, 0}, {0, 50}}, {{0, 1}}};
     const Contour contour(shape);

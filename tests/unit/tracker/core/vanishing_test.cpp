@@ -81,7 +81,7 @@ class WatchedBox {
     static constexpr int side_px = 120;
 
     void own_event(std::int64_t t_us) {
-        vanishing_.count_own(t_us, true);
+        vanishing_.count_own(t_us, 1, 0);
         was_gone_ |= vanishing_.is_gone(t_us);
     }
     double uniform() { return static_cast<double>(random_()) / 4294967296.0; }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "services/tracker/core/coast.hpp"
+#include "services/tracker/core/kinds.hpp"
+#include "services/tracker/core/slope.hpp"
+
+namespace pursuit::tracker {
+
+/// How an object goes on while another covers all of it: from where it was, at its velocity of the
+/// last second, whatever the last events said of it.
+///
+///     learning ── begin() ──► going on ── (it comes out, or is given up) ──► learning
+///
+/// Thread: the tracker's.
+class HiddenWay {
+ public:
+    /// Nothing is known of how it goes.
+    void restart() { slow_.restart(); }
+
+    /// While it is in view: whether another pose is wanted, and the pose.
+    [[nodiscard]] bool is_due(std::int64_t t_us) const { return slow_.is_due(t_us); }
+    void learn(std::int64_t t_us, const Pose& pose);
+
+    /// It is covered from now on; `now`: what is known of it, its velocity where none was learnt.
+    void begin(const Coast& now);
+    /// Time went on by dt_s.
+    void go_on(std::int64_t t_us, double dt_s, TransformKind transform);
+    /// It can move so from now on.
+    void constrain(TransformKind transform);
+
+    /// Where it was at the last go_on().
+    [[nodiscard]] const Coast& last() const { return coast_; }
+    /// Where it is thought to be later: the same, moved along.
+    [[nodiscard]] Pose pose_at(std::int64_t t_us) const;
+
+ private:
+    static constexpr double memory_s = 0.8;
+
+    Slope<3> slow_{memory_s};  // x, y, θ
+    double theta_rad_ = 0;     // unwrapped
+    Coast coast_;
+};
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/tally.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pursuit::tracker {
+
+double Going::across_px_s(const Outline::Part& part, const Eigen::Vector2d& arm_px) const {
+    const Eigen::Vector2d speed =
+        Eigen::Vector2d(velocity.vx_px_s, velocity.vy_px_s) +
+        velocity.omega_rad_s * Eigen::Vector2d(-arm_px.y(), arm_px.x()) +
+        (velocity.scale_x_rate_per_s + velocity.scale_y_rate_per_s) / 2 * arm_px;
+    const Eigen::Vector2d along = a * part.along_px;
+    return std::abs(along.x() * speed.y() - along.y() * speed.x());
+}
+
+void Tally::begin(std::int64_t t_us) {
+    over_s_ = t_us_ < 0 ? 0 : static_cast<double>(t_us - t_us_) * 1e-6;
+    t_us_ = t_us;
+}
+
+void Tally::learn(const Outline& outline, const Going& going) {
+    for (const Outline::Part& part : outline.parts()) {
+        if (part.is_hidden) continue;
+        events_ += part.events;
+        px2_ += going.across_px_s(part, going.a * part.middle_px) * over_s_;
+    }
+    if (events_ > most_events) {
+        px2_ *= most_events / events_;
+        events_ = most_events;
+    }
+    // With what is usual for a start.
+    events_per_px2_ = std::clamp((events_ + 200) / (px2_ + 100), 0.2, 12.0);
+}
+
+}  // namespace pursuit::tracker

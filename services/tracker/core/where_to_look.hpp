@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "services/common/event.hpp"
+#include "services/tracker/core/coast.hpp"
+#include "services/tracker/core/contour.hpp"
+#include "services/tracker/core/doubt.hpp"
+#include "services/tracker/core/shape_search.hpp"
+
+namespace pursuit::tracker {
+
+/// To confirm where an object is thought to be, and how it goes: around it, and, where it fell
+/// silent, around where it may have gone since (for coast_s at most).
+SearchRange range_of_check(std::int64_t t_us, const Coast& own, const Doubt& doubt, double coast_s);
+
+/// What such a search says. `checked`: where the object was thought to be, and how much of the
+/// contour that place explains.
+Doubt::Finding compare(const Contour& contour, const std::optional<ShapeSearch::Found>& found,
+                       const Pose& checked, double own_score);
+
+/// For an object that was lost gap_s ago: around where it would be now, going on as it did.
+SearchRange range_near(const Coast& coasted, double gap_s, bool has_fixed_scale);
+
+/// Anywhere in the image. `around` gives the size, and what angles are preferred.
+SearchRange range_of_image(const Pose& around, Geometry geometry, bool has_fixed_scale);
+
+/// For an object that a new stream left anywhere, adrift_s ago: farther about, the longer ago.
+/// What looks the same and was far away is taken only when nothing is found near.
+SearchRange range_adrift(const Pose& last, double adrift_s, Geometry geometry,
+                         bool has_fixed_scale);
+
+}  // namespace pursuit::tracker
