@@ -13,6 +13,7 @@
 
 #include "services/common/health.hpp"
 #include "services/common/log.hpp"
+#include "services/common/settings.hpp"
 #include "services/common/text_format.hpp"
 
 namespace pursuit {

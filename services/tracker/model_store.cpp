@@ -10,7 +10,7 @@
 #include <span>
 #include <sstream>
 
-#include "services/common/text_format.hpp"
+#include "services/common/atomic_file.hpp"
 #include "store.pb.h"
 
 namespace pursuit::tracker {

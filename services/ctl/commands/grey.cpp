@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "services/common/text_format.hpp"
+#include "services/common/atomic_file.hpp"
 #include "services/ctl/commands/mcap_info.hpp"
 #include "services/ctl/commands/offline_commands.hpp"
 #include "services/ctl/commands/option_values.hpp"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "services/common/settings.hpp"
 #include "services/common/text_format.hpp"
 #include "services/ctl/commands/offline_commands.hpp"
 #include "services/ctl/commands/option_values.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/common/text_format.hpp"
+#include "services/common/atomic_file.hpp"
 #include "services/ctl/report/film.hpp"
 #include "services/ctl/report/html.hpp"
 #include "services/ctl/report/plot.hpp"

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "services/common/settings.hpp"
 #include "services/common/text_format.hpp"
 #include "services/sensor/scene/builtin_scenes.hpp"
 #include "services/sensor/scene/polygon.hpp"

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <vector>
 
-#include "services/common/text_format.hpp"
+#include "services/common/atomic_file.hpp"
 #include "services/sensor/scene/scene_simulator.hpp"
 
 namespace pursuit::sensor {
