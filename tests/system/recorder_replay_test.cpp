@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real recorder replays recordings that the test has written, to a tracker that the test plays.
-#include <condition_variable>
-#include <fastdds/dds/subscriber/DataReader.hpp>
-
-#include "services/common/request_server.hpp"
 #include "services/recorder/packet_fields.hpp"
-#include "services/recorder/record/file_sequence.hpp"
-#include "services/recorder/record/writer_registry.hpp"
+#include "tests/system/played_tracker.hpp"
 #include "tests/system/recorder_fixture.hpp"
+#include "tests/system/recording_builder.hpp"
 
 namespace pursuit::testing {
 namespace {
@@ -15,65 +11,6 @@ namespace {
 using namespace std::chrono_literals;
 using recorder::PacketFields;
 using recorder::Payload;
-
-constexpr std::int64_t start_ns = 1'700'000'000'000'000'000;
-
-/// Writes recordings; times in ms after start_ns.
-class RecordingBuilder {
- public:
-    RecordingBuilder(const std::string& path, std::vector<const char*> names) {
-        for (const auto* name : names) {
-            topics_.push_back(recorder::facts_of(*recorder::find_raw_topic(name)));
-        }
-        files_ = std::make_unique<recorder::FileSequence>(
-            recorder::FileOptions{path, {}, 0}, topics_,
-            [](auto&, auto&) { return recorder::OfferedQos{}; },
-            [](const std::string& error) { FAIL() << error; });
-        EXPECT_TRUE(files_->begin({}));
-    }
-
-    void add(const char* topic, int at_ms, Payload payload) {
-        recorder::Sample sample;
-        while (topics_[sample.topic].name != topic) ++sample.topic;
-        sample.id.writer.fill(static_cast<std::uint8_t>(0x50 + sample.topic));
-        sample.id.sequence = ++sequence_;
-        sample.reception_time_ns = start_ns + at_ms * std::int64_t{1'000'000};
-        sample.source_time_ns = sample.reception_time_ns - 1000;
-        sample.payload = std::move(payload);
-        files_->write(sample, {});
-    }
-    void add_packets(int count) {
-        for (int i = 0; i < count; ++i) {
-            add(topic::events, i, serialized(packet_number(static_cast<std::uint64_t>(i), 77)));
-        }
-    }
-    /// A request and its reply, as the tracker gave it.
-    void add_call(int at_ms, v1::TrackerRequest request, std::int64_t effective_us,
-                  v1::StatusCode code = v1::STATUS_OK) {
-        request.header().request_id().sequence_low(++calls_);
-        v1::TrackerReply reply;
-        reply.header().related_request_id(request.header().request_id());
-        reply.header().instance_name("default");
-        reply.effective_time_us(effective_us);
-        reply.outcome().code(code);
-        if (request.call()._d() == v1::TRACKER_REGISTER_MODEL) {
-            v1::RegisterModelResult result;
-            result.object_id(7);
-            reply.result().register_model(result);
-        } else {
-            reply.result().remove_model({});
-        }
-        add(topic::tracker_request, at_ms, serialized(request));
-        add(topic::tracker_reply, at_ms + 1, serialized(reply));
-    }
-    void close() { files_->close({}); }
-
- private:
-    std::vector<recorder::TopicFacts> topics_;
-    std::unique_ptr<recorder::FileSequence> files_;
-    std::int64_t sequence_ = 0;
-    std::uint32_t calls_ = 0;
-};
 
 v1::TrackerRequest register_call(const std::string& name) {
     v1::RegisterModel model;
@@ -92,85 +29,13 @@ v1::TrackerRequest remove_call(const std::string& name) {
     return request;
 }
 
-/// What a tracker hears, in the order it comes.
-class Hearer : private eprosima::fastdds::dds::DataReaderListener {
- public:
-    struct Heard {
-        Payload packet;  ///< Or:
-        std::optional<v1::TrackerRequest> request;
-        std::int64_t source_time_ns = 0;
-        recorder::Guid original{};
-    };
-
-    explicit Hearer(Participant& participant, v1::StatusCode answer = v1::STATUS_OK)
-        : participant_(participant) {
-        using Server = RequestServer<v1::TrackerRequest, v1::TrackerReply>;
-        auto server = Server::create(
-            participant, topic::tracker_request, topic::tracker_reply, "default",
-            [this, answer](v1::TrackerRequest& request, Server& own) {
-                v1::TrackerReply reply;
-                reply.effective_time_us(request.apply_at_us());
-                reply.outcome().code(answer);
-                reply.outcome().message(answer == v1::STATUS_OK ? "" : "because of the test");
-                if (request.call()._d() == v1::TRACKER_GET_STATUS) {
-                    v1::TrackerStatus status;
-                    status.queue_capacity(1024);
-                    reply.result().get_status(status);
-                } else {
-                    const std::scoped_lock lock(mutex_);
-                    heard_.push_back({{}, request, 0, {}});
-                }
-                own.answer(request.header().request_id(), reply);
-            });
-        EXPECT_TRUE(server);
-        server_ = std::move(*server);
-        const auto& topic = *recorder::find_raw_topic(topic::events);
-        auto made = participant.topic(topic.name, topic.make_type());
-        reader_ = participant.subscriber().create_datareader(*made, reader_qos(topic.flow), this);
-    }
-    ~Hearer() override {
-        reader_->set_listener(nullptr);
-        participant_.subscriber().delete_datareader(reader_);
-    }
-
-    std::vector<Heard> heard() {
-        const std::scoped_lock lock(mutex_);
-        return heard_;
-    }
-    std::vector<Heard> packets() {
-        auto all = heard();
-        std::erase_if(all, [](const Heard& one) { return one.request.has_value(); });
-        return all;
-    }
-
- private:
-    void on_data_available(eprosima::fastdds::dds::DataReader* reader) override {
-        eprosima::fastdds::dds::SampleInfo info;
-        Payload payload;
-        while (reader->take_next_sample(&payload, &info) ==
-               eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
-            const std::scoped_lock lock(mutex_);
-            heard_.push_back({payload,
-                              {},
-                              info.source_timestamp.to_ns(),
-                              recorder::to_guid(info.related_sample_identity.writer_guid())});
-        }
-    }
-
-    Participant& participant_;
-    std::mutex mutex_;
-    std::vector<Heard> heard_;
-    std::unique_ptr<RequestServer<v1::TrackerRequest, v1::TrackerReply>> server_;
-    eprosima::fastdds::dds::DataReader* reader_ = nullptr;
-};
-
 class Replay : public RecorderTest {};
 
 TEST_F(Replay, repeats_the_packets_but_for_the_three_fields_that_are_new) {
     RecordingBuilder recording(path("run.mcap"), {topic::events});
     recording.add_packets(300);
     recording.close();
-    Hearer tracker(*participant_);
+    PlayedTracker tracker(*participant_);
     auto process = recorder({"replay=" + path("run.mcap")});
     EXPECT_EQ(process->wait(), 0) << process->log();
 
@@ -200,7 +65,8 @@ TEST_F(Replay, repeats_the_packets_but_for_the_three_fields_that_are_new) {
             fields.set_recorded_host_time_ns(*payload, 0);
         }
         EXPECT_EQ(given, expected) << "packet " << i;
-        const auto source_ns = start_ns + static_cast<std::int64_t>(i) * 1'000'000 - 1000;
+        const auto source_ns =
+            RecordingBuilder::start_ns + static_cast<std::int64_t>(i) * 1'000'000 - 1000;
         EXPECT_NEAR(static_cast<double>(heard[i].source_time_ns - source_ns), 0, 1);
         EXPECT_EQ(heard[i].original, writer);
     }
@@ -216,7 +82,7 @@ TEST_F(Replay, makes_each_call_before_the_packet_that_reaches_its_time) {
     recording.add_call(95, remove_call("first"), 40'200);
     recording.add_call(98, remove_call("second"), 1'000'000);
     recording.close();
-    Hearer tracker(*participant_);
+    PlayedTracker tracker(*participant_);
     auto process = recorder({"replay=" + path("run.mcap"), "rate=0"});
     EXPECT_EQ(process->wait(), 0) << process->log();
 
@@ -267,7 +133,7 @@ TEST_F(Replay, brings_about_what_held_before_the_recording_began) {
     recording.add(topic::tracker_settings, 0, serialized(settings));
     recording.add_packets(10);
     recording.close();
-    Hearer tracker(*participant_);
+    PlayedTracker tracker(*participant_);
     auto process = recorder({"replay=" + path("run.mcap")});
     EXPECT_EQ(process->wait(), 0) << process->log();
 
@@ -291,7 +157,7 @@ TEST_F(Replay, names_a_call_that_is_refused_and_fails_at_the_end) {
     recording.add_call(0, register_call("car"), 5000);
     recording.add_packets(20);
     recording.close();
-    Hearer tracker(*participant_, v1::STATUS_LIMIT_EXCEEDED);
+    PlayedTracker tracker(*participant_, v1::STATUS_LIMIT_EXCEEDED);
     auto process = recorder({"replay=" + path("run.mcap")});
     EXPECT_EQ(process->wait(), 1);
     EXPECT_THAT(process->log(), ::testing::HasSubstr(
@@ -308,7 +174,7 @@ TEST_F(Replay, of_a_damaged_file_sends_what_is_good_and_fails_at_the_end) {
     const auto good = read_recording(path("run.mcap")).messages.size();
     ASSERT_GT(good, 0U);
     ASSERT_LT(good, 2000U);
-    Hearer tracker(*participant_);
+    PlayedTracker tracker(*participant_);
     auto process = recorder({"replay=" + path("run.mcap"), "rate=0"});
     EXPECT_EQ(process->wait(), 1);
     EXPECT_EQ(tracker.packets().size(), good);
@@ -323,7 +189,7 @@ TEST_F(Replay, as_fast_as_possible_loses_nothing) {
                       serialized(packet_number(static_cast<std::uint64_t>(i), 77, 1000)));
     }
     recording.close();
-    Hearer tracker(*participant_);
+    PlayedTracker tracker(*participant_);
     const auto begin = std::chrono::steady_clock::now();
     auto process = recorder({"replay=" + path("run.mcap"), "rate=0"});
     EXPECT_EQ(process->wait(), 0) << process->log();
@@ -337,7 +203,7 @@ TEST_F(Replay, paces_by_log_time_and_obeys_its_requests) {
     RecordingBuilder recording(path("run.mcap"), {topic::events});
     recording.add_packets(3000);
     recording.close();
-    Hearer tracker(*participant_);
+    PlayedTracker tracker(*participant_);
     auto process = recorder({"replay=" + path("run.mcap"), "rate=0.5"});
     auto client = RequestClient<v1::RecorderRequest, v1::RecorderReply>::create(
         *participant_, topic::recorder_request, topic::recorder_reply, "");

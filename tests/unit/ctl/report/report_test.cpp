@@ -2,16 +2,10 @@
 #include "services/ctl/report/report.hpp"
 
 #include <gmock/gmock.h>
-#include <png.h>
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 #include <random>
-
-#include "services/ctl/report/event_image.hpp"
-#include "services/ctl/report/film.hpp"
-#include "services/ctl/report/html.hpp"
-#include "services/ctl/report/plot.hpp"
 
 namespace pursuit::ctl {
 namespace {
@@ -240,99 +234,6 @@ TEST(Report, stays_small_whatever_it_is_given_and_says_what_it_left_out) {
     EXPECT_THAT(page, HasSubstr("256 of 300 rows"));
     EXPECT_THAT(page, HasSubstr("256 of 1000 facts"));
     EXPECT_THAT(page, HasSubstr("Curves have at most 700 points"));
-}
-
-TEST(EventImage, is_a_picture_of_the_majority_at_each_pixel) {
-    const auto png = event_png({{0, 1, 0, 1}, {0, 1, 0, 1}, {0, 1, 0, 0}, {0, 2, 1, 0}}, {4, 2});
-    ASSERT_TRUE(png);
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    ASSERT_NE(png_image_begin_read_from_memory(&image, png->data(), png->size()), 0);
-    image.format = PNG_FORMAT_RGBA;
-    ASSERT_EQ(image.width, 4U);
-    ASSERT_EQ(image.height, 2U);
-    std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
-    ASSERT_NE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr), 0);
-    for (std::size_t i = 0; i < 8; ++i) {
-        const bool on = i == 1;
-        const bool off = i == 6;
-        EXPECT_EQ(pixels[4 * i + 3] > 0, on || off) << i;
-        if (on) {
-            EXPECT_GT(pixels[4 * i + 2], pixels[4 * i]) << "ON is not blue";
-        }
-        if (off) {
-            EXPECT_LT(pixels[4 * i + 2], pixels[4 * i]) << "OFF is not brown";
-        }
-    }
-    EXPECT_GT(pixels[4 * 1 + 3], pixels[4 * 6 + 3]) << "more events are not stronger";
-    EXPECT_FALSE(event_png({}, {0, 5}));
-}
-
-TEST(Plot, thinning_keeps_extremes_gaps_and_order) {
-    std::vector<ReportSample> samples;
-    for (int i = 0; i < 10'000; ++i) samples.push_back({i, std::sin(i * 0.001)});
-    samples[1234].value = 50;
-    samples[5678].value = -50;
-    samples[7777].value = nan;
-    const auto kept = thinned(samples, 300);
-    EXPECT_LE(kept.size(), 300U);
-    const auto has = [&](std::int64_t t_us) {
-        return std::any_of(kept.begin(), kept.end(),
-                           [&](const ReportSample& sample) { return sample.t_us == t_us; });
-    };
-    EXPECT_TRUE(has(1234));
-    EXPECT_TRUE(has(5678));
-    EXPECT_TRUE(has(7777));
-    EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end(),
-                               [](const auto& a, const auto& b) { return a.t_us < b.t_us; }));
-    EXPECT_EQ(thinned(samples, 10'000).size(), 10'000U);
-    EXPECT_TRUE(thinned({}, 10).empty());
-}
-
-TEST(Plot, ticks_are_round_and_within_the_axis) {
-    EXPECT_EQ(ticks(0, 1), (std::vector<double>{0, 0.2, 0.4, 0.6000000000000001, 0.8, 1}));
-    EXPECT_EQ(ticks(-3, 12), (std::vector<double>{0, 5, 10}));
-    EXPECT_TRUE(ticks(1, 1).empty());
-    EXPECT_TRUE(ticks(nan, 1).empty());
-    for (const double scale : {1e-9, 0.003, 7.0, 1e12}) {
-        const auto values = ticks(-scale, 3 * scale);
-        EXPECT_GE(values.size(), 3U);
-        EXPECT_LE(values.size(), 7U);
-        EXPECT_GE(values.front(), -scale);
-        EXPECT_LE(values.back(), 3 * scale * (1 + 1e-9));
-    }
-}
-
-TEST(Film, the_pose_shown_is_the_last_one_before) {
-    const auto poses = object("x", 3).poses;
-    EXPECT_EQ(pose_at(poses, -1), nullptr);
-    EXPECT_EQ(pose_at(poses, 0), &poses[0]);
-    EXPECT_EQ(pose_at(poses, 1999), &poses[1]);
-    EXPECT_EQ(pose_at(poses, 99'999), &poses[2]);
-    EXPECT_EQ(pose_at({}, 5), nullptr);
-}
-
-TEST(Html, text_is_cut_at_its_bound_and_numbers_are_short) {
-    EXPECT_EQ(escape_html("abcdef", 3), "abc…");
-    EXPECT_EQ(escape_html("a\xC3\xA4", 2), "a\xEF\xBF\xBD…");
-    EXPECT_EQ(escape_html("µ…😀", 100), "µ…😀");
-    EXPECT_EQ(number(nan, 2), "–");
-    EXPECT_EQ(number(1.005, 1), "1.0");
-    EXPECT_EQ(short_number(1'234'567), "1.23 M");
-    EXPECT_EQ(coordinate(-0.0001), "0");
-    EXPECT_EQ(coordinate(12.50), "12.5");
-    EXPECT_EQ(coordinate(1e300), "10000000");
-}
-
-TEST(Html, base64_is_as_in_rfc_4648) {
-    const auto of = [](std::string_view text) {
-        return base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    };
-    EXPECT_EQ(of(""), "");
-    EXPECT_EQ(of("f"), "Zg==");
-    EXPECT_EQ(of("fo"), "Zm8=");
-    EXPECT_EQ(of("foo"), "Zm9v");
-    EXPECT_EQ(of("foobar"), "Zm9vYmFy");
 }
 
 }  // namespace

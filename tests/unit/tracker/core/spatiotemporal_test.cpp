@@ -4,172 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <random>
 #include <vector>
 
 #include "services/tracker/core/tracker.hpp"
+#include "tests/unit/tracker/core/edge_events.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
 
 namespace pursuit::tracker {
 namespace {
-
-// An upright edge that moves right by 1 px a ms, from x = 10 at `from_us` on: with c = 1000 px/s
-// its events lie in the plane x − 10 = c·(t − from), normal (1, 0, −1)/√2.
-std::vector<Event> edge_events(std::int64_t from_us, int ms) {
-    std::vector<Event> events;
-    for (int k = 0; k <= ms; ++k) {
-        for (int y = 20; y < 40; ++y) {
-            events.push_back({from_us + k * 1000, static_cast<std::uint16_t>(10 + k),
-                              static_cast<std::uint16_t>(y), 1});
-        }
-    }
-    return events;
-}
-constexpr double c_px_us = 1e-3;
-
-TEST(Plane, of_an_edge_that_moves_evenly_is_as_computed_by_hand) {
-    PlaneSums sums;
-    for (const Event& event : edge_events(5000, 100)) sums.add(event.x, event.y, event.t_us);
-    const auto plane = sums.fit(c_px_us, 105'000);
-    ASSERT_TRUE(plane);
-    const double sign = plane->normal.x() > 0 ? 1 : -1;
-    EXPECT_NEAR(sign * plane->normal.x(), std::sqrt(0.5), 1e-9);
-    EXPECT_NEAR(plane->normal.y(), 0, 1e-9);
-    EXPECT_NEAR(sign * plane->normal.z(), -std::sqrt(0.5), 1e-9);
-    // The edge is at 110 px now: on it, and 4 px ahead of it.
-    EXPECT_NEAR(plane->distance_px(110, 7, 105'000), 0, 1e-9);
-    EXPECT_NEAR(plane->distance_px(114, 7, 105'000), 4 * std::sqrt(0.5), 1e-9);
-    EXPECT_NEAR(plane->distance_px(114, 7, 107'000), 2 * std::sqrt(0.5), 1e-9);
-    EXPECT_DOUBLE_EQ(plane->sigma_px, std::sqrt(1.0 / 12));
-}
-
-TEST(Plane, has_the_spread_of_its_events) {
-    PlaneSums sums;
-    // Two upright edges 6 px apart: 3 px from the middle, across the plane 3/√2.
-    for (const Event& event : edge_events(0, 100)) {
-        sums.add(event.x, event.y, event.t_us);
-        sums.add(static_cast<std::uint16_t>(event.x + 6), event.y, event.t_us);
-    }
-    EXPECT_NEAR(sums.fit(c_px_us, 100'000)->sigma_px, 3 * std::sqrt(0.5), 0.01);
-}
-
-TEST(Plane, is_none_of_fewer_than_three_events) {
-    PlaneSums sums;
-    EXPECT_FALSE(sums.fit(c_px_us, 0));
-    sums.add(1, 2, 3);
-    sums.add(2, 2, 3);
-    EXPECT_FALSE(sums.fit(c_px_us, 0));
-    sums.add(3, 7, 3);
-    EXPECT_TRUE(sums.fit(c_px_us, 0));
-}
-
-TEST(Plane, is_the_same_to_the_bit_after_a_million_events_came_and_went_late_in_time) {
-    constexpr std::int64_t late_us = std::int64_t{1} << 52;
-    std::mt19937 random(1);
-    PlaneSums sums;
-    std::vector<Event> events;
-    for (int i = 0; i < 1'000'000; ++i) {
-        events.push_back({late_us + i, static_cast<std::uint16_t>(random() % 1280),
-                          static_cast<std::uint16_t>(random() % 720), 1});
-        sums.add(events.back().x, events.back().y, events.back().t_us);
-        if (i < 1000) continue;
-        const Event& gone = events[static_cast<std::size_t>(i) - 1000];
-        sums.remove(gone.x, gone.y, gone.t_us);
-    }
-    PlaneSums afresh;
-    for (std::size_t i = events.size() - 1000; i < events.size(); ++i) {
-        // As if time had begun at the late time.
-        afresh.add(events[i].x, events[i].y, events[i].t_us - late_us);
-    }
-    const auto plane = sums.fit(1e-3, late_us + 1'000'000);
-    const auto expected = afresh.fit(1e-3, 1'000'000);
-    EXPECT_EQ(sums.count(), 1000U);
-    EXPECT_EQ(plane->normal, expected->normal);
-    EXPECT_EQ(plane->centre_px, expected->centre_px);
-    EXPECT_EQ(plane->sigma_px, expected->sigma_px);
-}
-
-TEST(Plane, keeps_its_precision_at_its_limits) {
-    // 65,536 events over 10 s at the far corner of the largest array: the largest sums there are.
-    PlaneSums sums;
-    for (int i = 0; i < 65'536; ++i) {
-        const auto y = static_cast<std::uint16_t>(65'535 - i * 7919 % 4096);
-        sums.add(static_cast<std::uint16_t>(65'535 - i % 2), y,
-                 10'000'000 * std::int64_t{i} / 65'536);
-    }
-    const auto plane = sums.fit(1e-3, 10'000'000);
-    EXPECT_NEAR(std::abs(plane->normal.x()), 1, 1e-6);
-    EXPECT_NEAR(plane->sigma_px, 0.5, 1e-3);
-}
-
-// What a window should hold: the events one by one.
-struct Recount {
-    Recount(std::int64_t window, std::size_t most, bool last_only)
-        : window_us(window), limit(most), is_last_per_pixel(last_only) {}
-
-    PlaneSums add(const Event& event) {
-        events.push_back(event);
-        if (events.size() > limit) events.erase(events.begin());
-        std::erase_if(events, [&](const Event& e) { return e.t_us < event.t_us - window_us; });
-        PlaneSums sums;
-        std::map<std::pair<int, int>, Event> last;
-        for (const Event& e : events) last[{e.x, e.y}] = e;
-        for (const Event& e : events) {
-            if (is_last_per_pixel && !(last[{e.x, e.y}] == e)) continue;
-            sums.add(e.x, e.y, e.t_us);
-        }
-        return sums;
-    }
-
-    std::int64_t window_us;
-    std::size_t limit;
-    bool is_last_per_pixel;
-    std::vector<Event> events;
-};
-
-class Window : public testing::TestWithParam<bool> {};
-
-TEST_P(Window, holds_what_a_recount_of_its_events_gives) {
-    // Limits that bind and that do not; storage that grows while pixels fire again and again.
-    for (const auto& [window_us, limit] :
-         {std::pair<std::int64_t, std::size_t>{700, 50}, {300, 5000}, {100'000, 1500}}) {
-        EventWindow window(window_us, limit, GetParam());
-        Recount recount(window_us, limit, GetParam());
-        std::mt19937 random(7);
-        std::int64_t t_us = 0;
-        for (int i = 0; i < 3000; ++i) {
-            t_us += 1 + random() % 3 + (random() % 500 == 0 ? 800 : 0);
-            const Event event{t_us, static_cast<std::uint16_t>(random() % 16),
-                              static_cast<std::uint16_t>(random() % 8), 1};
-            window.add(event);
-            const PlaneSums expected = recount.add(event);
-            ASSERT_EQ(window.sums().count(), expected.count()) << i;
-            if (i % 10 != 0 || expected.count() < 3) continue;
-            const auto plane = window.sums().fit(1e-2, t_us);
-            const auto expected_plane = expected.fit(1e-2, t_us);
-            ASSERT_EQ(plane->normal, expected_plane->normal) << i;
-            ASSERT_EQ(plane->centre_px, expected_plane->centre_px) << i;
-        }
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(EveryEventOrTheLastOfAPixel, Window, testing::Bool(),
-                         [](const auto& made) { return made.param ? "last" : "every"; });
-
-TEST(Window, is_whole_once_fed_for_its_length_and_begins_anew_when_it_ran_empty) {
-    EventWindow window(1000, 100, false);
-    EXPECT_FALSE(window.is_whole(0));
-    for (std::int64_t t_us = 500; t_us <= 1499; ++t_us) window.add({t_us, 1, 1, 1});
-    EXPECT_FALSE(window.is_whole(1499));
-    EXPECT_TRUE(window.is_whole(1500));
-    window.reach(2500);
-    EXPECT_EQ(window.sums().count(), 0U);
-    EXPECT_FALSE(window.is_whole(2500));
-    window.add({2600, 1, 1, 1});
-    EXPECT_FALSE(window.is_whole(3599));
-    EXPECT_TRUE(window.is_whole(3600));
-}
 
 // Two objects whose edges move at 1 px a ms, the second 40 px ahead of the first.
 class TwoPlanes : public testing::Test {
@@ -181,7 +23,7 @@ class TwoPlanes : public testing::Test {
     }
 
     void feed(Strategy& strategy, int ms, double second_spread_px = 0) {
-        for (const Event& event : edge_events(0, ms)) {
+        for (const Event& event : test::edge_events(0, ms)) {
             strategy.used(event, {1, 0});
             auto ahead = event;
             ahead.x = static_cast<std::uint16_t>(ahead.x + 40);
@@ -237,7 +79,7 @@ TEST_F(TwoPlanes, are_fed_by_what_is_taken_or_near_or_near_alone_as_selected) {
                                  std::vector<double> distances_px) {
         parameters_.plane_feed = feed;
         Spatiotemporal strategy(parameters_);
-        for (const Event& event : edge_events(0, 100)) {
+        for (const Event& event : test::edge_events(0, 100)) {
             const std::vector<Claim> first{{1, 2}, {2, from_second_px}};
             strategy.near(event, first);
             auto ahead = event;
@@ -310,7 +152,7 @@ TEST_F(TwoPlanes, are_laid_anew_when_older_than_plane_refit_s) {
     parameters_.plane_filters_unambiguous = 1;
     EXPECT_EQ(given(strategy, {100'000, 115, 30, 1}, {2.5, 0.5}), (Weights{1, 0}));
     // From now on the two have each other's events; the planes follow when laid anew.
-    for (const Event& event : edge_events(100'001, 60)) {
+    for (const Event& event : test::edge_events(100'001, 60)) {
         auto ahead = event;
         ahead.x = static_cast<std::uint16_t>(ahead.x + 100);
         strategy.used(ahead, {2, 0});
