@@ -85,6 +85,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     watch_.restart(pose, velocity);
     stands_still_ = false;
     backlash_.restart(contour_.pieces().pieces().size());
+    contrast_.restart(contour_.pieces().pieces().size());
     bend_.restart();
     offsets_.restart();
     noise_gain_ = 1;
@@ -302,6 +303,14 @@ auto KalmanEstimator<kind>::nearest_to(const Eigen::Vector2d& q) const -> Place 
 }
 
 template <TransformKind kind>
+double KalmanEstimator<kind>::lead_px(std::int32_t piece, int lead) const {
+    const auto& leads_px = filter_.lead_px();
+    const int first = lead & ~1;
+    return leads_px(lead) + contrast_.earlier(piece, first / 2, speed_px_s_) *
+                                (leads_px(first) - leads_px(first + 1));
+}
+
+template <TransformKind kind>
 Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_same_us) {
     const double within_px = reach_px(event.t_us);
     if ((Eigen::Vector2d(event.x, event.y) - filter_.pose().t_px).squaredNorm() >
@@ -340,7 +349,7 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
                          : backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
     const bool subsequent = static_cast<double>(since_same_us) * 1e-6 * speed_px_s_ < same_edge_px;
     const int lead = 2 * (event.polarity & 1) + (subsequent ? 1 : 0);
-    const double r_px = place.r_px - filter_.lead_px()(lead) * h - offsets_.of(place.piece);
+    const double r_px = place.r_px - lead_px(place.piece, lead) * h - offsets_.of(place.piece);
     const double distance_px = std::abs(r_px);
     if (distance_px > Clutter::far_from_px && distance_px < Clutter::far_to_px) {
         clutter_.count_far(place.piece, r_px);
@@ -394,6 +403,7 @@ bool KalmanEstimator<kind>::take(double weight) {
     if (parameters_.learns_offsets >= 0.5 && measured_.has_side) {
         offsets_.learn(measured_.piece, r, share, speed_px_s_);
     }
+    contrast_.count(measured_.piece, measured_.lead / 2, measured_.lead % 2 == 1, share);
     if (lead_prior_.count(measured_.lead, share)) {
         filter_.tell_leads(lead_prior_.weights(), lead_prior_.held_px(), LeadPrior::held_sigma_px);
         filter_.tell_leads(lead_prior_.apart_weights(), lead_prior_.apart_px(),

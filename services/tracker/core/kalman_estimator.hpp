@@ -5,6 +5,7 @@
 #include "services/tracker/core/bend.hpp"
 #include "services/tracker/core/clutter.hpp"
 #include "services/tracker/core/contour_offsets.hpp"
+#include "services/tracker/core/edge_contrast.hpp"
 #include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/event_clock.hpp"
 #include "services/tracker/core/lead_prior.hpp"
@@ -86,6 +87,9 @@ class KalmanEstimator : public Estimator {
     /// q: the event about T, image px.
     [[nodiscard]] Place nearest_to(const Eigen::Vector2d& q) const;
 
+    /// How far ahead of the piece an event of this kind comes.
+    [[nodiscard]] double lead_px(std::int32_t piece, int lead) const;
+
     /// What approach() found, for take().
     struct Measurement {
         typename Filter::Row row;
@@ -117,6 +121,7 @@ class KalmanEstimator : public Estimator {
     EventClock clock_;
     Clutter clutter_;
     Backlash backlash_;
+    EdgeContrast contrast_;
     Bend bend_;
     ContourOffsets offsets_;
     NoiseWatch watch_;
