@@ -38,7 +38,8 @@ class ContourOffsets {
     /// taken into account; share: 0 … 1, that it is the object's. The faster it moves, the more of
     /// the distance is what a pixel's delays make of the speed. (A point has no side: of one, every
     /// event is beside it the same way.)
-    void learn(std::int32_t piece, double residual_px, double share, double speed_px_s) {
+    [[gnu::always_inline]] void learn(std::int32_t piece, double residual_px, double share,
+                                      double speed_px_s) {
         const auto i = static_cast<std::size_t>(piece);
         const double fast = speed_px_s / fast_px_s;
         const double gain =

@@ -3,26 +3,15 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <numbers>
+
+#include "services/tracker/core/contour_place.hpp"
+#include "services/tracker/core/told_covariance.hpp"
 
 namespace pursuit::tracker {
 namespace {
 
 // Of the measurement.
-constexpr double first_noise_px = 0.4;       // σ of a pixel's first event of an edge
-constexpr double subsequent_noise_px = 0.6;  // σ of those that follow
-constexpr double tail_px2 = 1.5 * 1.5;       // variance added for the events that stray
-constexpr double tail_share = 0.2;
 constexpr double least_share = 0.05;
-// Where events lie farther from the contour than the noise explains, the model is another than the
-// object, as one taken from a recording of something that turns in depth: a sharp look would hold
-// on to what is next to it. From this gain of the noise on the tail has more, and is wider.
-constexpr double misfit_gain = 2;
-constexpr double tail_share_of_misfit = 0.1;
-constexpr double most_tail_share = 0.5;
-constexpr double tail_of_misfit = 0.5;
-constexpr double least_noise_gain = 0.2;
-constexpr double most_noise_gain = 16;
 constexpr double same_edge_px = 8;  // a pixel's events within this way belong to one edge
 constexpr double least_lead_px = -1.2;
 constexpr double most_lead_px = 1.6;
@@ -50,12 +39,6 @@ constexpr double silent_events = 10;  // expected and not come: it stands still
 // after so much of a way or time.
 constexpr double spread_way_px = 0.05;
 constexpr double spread_s = 0.002;
-
-// In single precision: the densities are weighed against each other, to a few digits.
-float normal_density(double r2, double per_variance) {
-    return std::exp(static_cast<float>(-0.5 * r2 * per_variance)) *
-           std::sqrt(static_cast<float>(per_variance * (0.5 / std::numbers::pi)));
-}
 
 }  // namespace
 
@@ -88,7 +71,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     contrast_.restart(contour_.pieces().pieces().size());
     bend_.restart();
     offsets_.restart();
-    noise_gain_ = 1;
+    noise_.restart();
     most_pose_sigma_px_ = most_pose_sigma_px;
     t_us_ = -1;
     unspread_s_ = 0;
@@ -258,51 +241,6 @@ double KalmanEstimator<kind>::reach_px(std::int64_t t_us) const {
 }
 
 template <TransformKind kind>
-auto KalmanEstimator<kind>::nearest_to(const Eigen::Vector2d& q) const -> Place {
-    const Eigen::Matrix2d& a = filter_.pose().a;
-    const CandidateGrid& grid = contour_.pieces();
-    CandidateGrid::Nearest nearest;
-    if constexpr (keeps_angles) {
-        // The inverse of A is its transpose, but for the scale.
-        Eigen::Vector2d x(a(0, 0) * q.x() + a(1, 0) * q.y(), a(0, 0) * q.y() - a(1, 0) * q.x());
-        double scale2 = 1;
-        if constexpr (kind == TransformKind::similarity) {
-            scale2 = a(0, 0) * a(0, 0) + a(1, 0) * a(1, 0);
-            x /= scale2;
-        }
-        nearest = grid.nearest(x.x(), x.y(), ModelMetric());
-        nearest.squared_px *= scale2;
-    } else {
-        const double per_area = 1 / (a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
-        nearest = grid.nearest((a(1, 1) * q.x() - a(0, 1) * q.y()) * per_area,
-                               (a(0, 0) * q.y() - a(1, 0) * q.x()) * per_area, ImageMetric(a));
-    }
-    Place place;
-    if (nearest.piece < 0 || nearest.squared_px > Clutter::far_to_px * Clutter::far_to_px) {
-        return place;
-    }
-    place.piece = nearest.piece;
-    place.squared_px = nearest.squared_px;
-    const Segment& segment = grid.segment(nearest.piece);
-    place.model_px << segment.ax + nearest.foot * segment.dx,
-        segment.ay + nearest.foot * segment.dy;
-    place.arm_px = a * place.model_px;
-    const Eigen::Vector2d off = q - place.arm_px;
-    if (!(segment.per_length2 > 0)) {
-        const double distance_px = std::sqrt(place.squared_px);
-        place.n = distance_px > 1e-9 ? Eigen::Vector2d(off / distance_px) : Eigen::Vector2d(1, 0);
-    } else if constexpr (kind == TransformKind::isometry) {
-        place.n = a * Eigen::Vector2d(segment.nx, segment.ny);
-    } else {
-        const Eigen::Vector2d along = a * Eigen::Vector2d(segment.dx, segment.dy);
-        const double per_length = 1 / along.norm();
-        place.n << along.y() * per_length, -along.x() * per_length;
-    }
-    place.r_px = place.n.dot(off);
-    return place;
-}
-
-template <TransformKind kind>
 double KalmanEstimator<kind>::lead_px(std::int32_t piece, int lead) const {
     const auto& leads_px = filter_.lead_px();
     const int first = lead & ~1;
@@ -335,7 +273,8 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
         // To where it would be, were the model not bent.
         if (!bend_.is_flat()) q -= pose.a * bend_.shift(pose.a.inverse() * q);
     }
-    const Place place = nearest_to(q);
+    const ContourPlace place =
+        place_on_contour<kind>(contour_.pieces(), pose.a, q, Clutter::far_to_px);
     if (place.piece < 0) return {};
     const double past_end2 = place.squared_px - place.r_px * place.r_px;
     if (past_end2 > Clutter::overshoot_px * Clutter::overshoot_px) return {};
@@ -364,19 +303,7 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     measured_.piece = place.piece;
     measured_.has_side = segment.per_length2 > 0;
     measured_.lead = lead;
-    const double sigma_px = subsequent ? subsequent_noise_px : first_noise_px;
-    measured_.noise_px2 = sigma_px * sigma_px * noise_gain_;
-
-    const double near_variance = measured_.row.h_p_h + measured_.noise_px2;
-    measured_.per_near_variance = 1 / near_variance;
-    const double misfit = std::max(noise_gain_ - misfit_gain, 0.0);
-    const double share_of_tail =
-        std::min(tail_share + tail_share_of_misfit * misfit, most_tail_share);
-    measured_.tail_px2 = tail_px2 * (1 + tail_of_misfit * misfit);
-    measured_.near_likelihood =
-        (1 - share_of_tail) * normal_density(r_px * r_px, measured_.per_near_variance);
-    measured_.far_likelihood =
-        share_of_tail * normal_density(r_px * r_px, 1 / (near_variance + measured_.tail_px2));
+    measured_.told = noise_.at(r_px, measured_.row.h_p_h, subsequent);
     measured_.clutter = clutter_.density(place.piece, r_px);
     return {distance_px, measured_.clutter, distance_px, place.piece};
 }
@@ -384,21 +311,16 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
 template <TransformKind kind>
 bool KalmanEstimator<kind>::take(double weight) {
     const double r = measured_.r_px;
-    const double likelihood = measured_.near_likelihood + measured_.far_likelihood;
+    const double likelihood = measured_.told.likelihood();
     const double share = weight * likelihood / (likelihood + measured_.clutter);
     const bool is_told = clutter_.is_measured();
     clutter_.count_near(measured_.piece, share);
     if (!is_told || stands_still_ || share < least_share) return false;
 
-    // The mean of both kinds' information.
-    const double near_noise = measured_.noise_px2;
-    const double far_noise = near_noise + measured_.tail_px2;
-    const double noise =
-        likelihood * near_noise * far_noise /
-        (measured_.near_likelihood * far_noise + measured_.far_likelihood * near_noise);
-    filter_.correct(measured_.row, r, measured_.row.h_p_h + noise, share, watch_.is_on());
+    const double noise_px2 = measured_.told.variance_px2();
+    filter_.correct(measured_.row, r, measured_.row.h_p_h + noise_px2, share, watch_.is_on());
     if constexpr (is_bent) {
-        bend_.correct(measured_.along_bend, r, measured_.row.h_p_h + noise, share);
+        bend_.correct(measured_.along_bend, r, measured_.row.h_p_h + noise_px2, share);
     }
     if (parameters_.learns_offsets >= 0.5 && measured_.has_side) {
         offsets_.learn(measured_.piece, r, share, speed_px_s_);
@@ -411,9 +333,7 @@ bool KalmanEstimator<kind>::take(double weight) {
     }
     filter_.limit_leads(least_lead_px, most_lead_px);
     if constexpr (kind != TransformKind::isometry) measure_size();
-    const double surprise = std::min(r * r * measured_.per_near_variance, 9.0) / 1.3 - 1;
-    noise_gain_ =
-        std::clamp(noise_gain_ * (1 + 0.001 * share * surprise), least_noise_gain, most_noise_gain);
+    noise_.learn(r, measured_.told, share);
     residual_px_ += 0.01 * share * (std::abs(r) - residual_px_);
 
     most_pose_sigma_px_ =
@@ -436,35 +356,9 @@ void KalmanEstimator<kind>::describe(std::int64_t t_us, PoseRecord& record) cons
         if (moving_s > 0) Filter::move(moving_s, record.pose, twist);
     }
     record.velocity = M::velocity(twist, record.pose.a);
-    describe_covariance(t_us, record);
+    const double since_s = t_us_ < 0 ? 0 : static_cast<double>(t_us - t_us_) * 1e-6 + unspread_s_;
+    tell_covariance<kind>(filter_, since_s, record);
     record.mean_residual_px = static_cast<float>(residual_px_);
-}
-
-template <TransformKind kind>
-void KalmanEstimator<kind>::describe_covariance(std::int64_t t_us, PoseRecord& record) const {
-    // As far as the state is known, and how far it can have gone since the last event near it.
-    using Square = Eigen::Matrix<double, Filter::dof, Filter::dof>;
-    const double dt_s = t_us_ < 0 ? 0 : static_cast<double>(t_us - t_us_) * 1e-6 + unspread_s_;
-    const typename Filter::Covariance p = filter_.covariance();
-    const Square pv = p.template block<Filter::dof, Filter::dof>(0, Filter::dof);
-    const Square vv = p.template block<Filter::dof, Filter::dof>(Filter::dof, Filter::dof);
-    const Square pose = p.template topLeftCorner<Filter::dof, Filter::dof>() +
-                        dt_s * (pv + pv.transpose()) + dt_s * dt_s * vv;
-    const auto j = M::readable(record.pose.a);
-    const Eigen::Matrix<double, 6, 6> read = j * pose * j.transpose();
-    std::size_t i = 0;
-    for (int row = 0; row < 6; ++row) {
-        for (int column = row; column < 6; ++column, ++i) {
-            record.pose_covariance[i] = read(row, column);
-        }
-    }
-    const Eigen::Matrix<double, 6, 6> read_rate = j * vv * j.transpose();
-    i = 0;
-    for (int row = 0; row < 3; ++row) {
-        for (int column = row; column < 3; ++column, ++i) {
-            record.velocity_covariance[i] = read_rate(row, column);
-        }
-    }
 }
 
 template class KalmanEstimator<TransformKind::isometry>;

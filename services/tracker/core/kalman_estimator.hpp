@@ -9,6 +9,7 @@
 #include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/event_clock.hpp"
 #include "services/tracker/core/lead_prior.hpp"
+#include "services/tracker/core/measurement_noise.hpp"
 #include "services/tracker/core/noise_watch.hpp"
 #include "services/tracker/core/twist_filter.hpp"
 
@@ -29,9 +30,7 @@ class KalmanEstimator : public Estimator {
                 double way_px) override;
     void set_visible_share(double share) override { visible_share_ = share; }
     Approach approach(const Event& event, std::int64_t since_same_us) override;
-    [[nodiscard]] double likelihood() const override {
-        return measured_.near_likelihood + measured_.far_likelihood;
-    }
+    [[nodiscard]] double likelihood() const override { return measured_.told.likelihood(); }
     bool take(double weight) override;
     [[nodiscard]] double reach_px(std::int64_t t_us) const override;
     void stand_still() override {
@@ -49,15 +48,10 @@ class KalmanEstimator : public Estimator {
     void describe(std::int64_t t_us, PoseRecord& record) const override;
 
  private:
-    void describe_covariance(std::int64_t t_us, PoseRecord& record) const;
-
     using Filter = TwistFilter<kind>;
     using M = Motion<kind>;
     using Step = typename M::Step;
 
-    // An isometry or a similarity: what is nearest in the image is so in the model frame.
-    static constexpr bool keeps_angles =
-        kind == TransformKind::isometry || kind == TransformKind::similarity;
     static constexpr bool is_bent = kind == TransformKind::full_affine;
 
     void predict_to(std::int64_t t_us);
@@ -75,18 +69,6 @@ class KalmanEstimator : public Estimator {
     void measure_size();
     [[nodiscard]] double effective_length_px() const;
 
-    /// The place of the contour that is nearest to an event.
-    struct Place {
-        std::int32_t piece = -1;   ///< -1: none within reach.
-        Eigen::Vector2d model_px;  ///< In the model frame.
-        Eigen::Vector2d arm_px;    ///< In the image, about T.
-        Eigen::Vector2d n;         ///< The contour's unit normal there, image.
-        double r_px = 0;           ///< Along it, from the place to the event.
-        double squared_px = 0;     ///< The distance, squared.
-    };
-    /// q: the event about T, image px.
-    [[nodiscard]] Place nearest_to(const Eigen::Vector2d& q) const;
-
     /// How far ahead of the piece an event of this kind comes.
     [[nodiscard]] double lead_px(std::int32_t piece, int lead) const;
 
@@ -96,11 +78,7 @@ class KalmanEstimator : public Estimator {
         double r_px;
         std::int32_t piece;
         int lead;
-        double noise_px2;
-        double tail_px2;
-        double per_near_variance;
-        double near_likelihood;
-        double far_likelihood;
+        MeasurementNoise::Told told;
         double clutter;
         Eigen::Vector2d along_bend;
         bool has_side = false;
@@ -122,6 +100,7 @@ class KalmanEstimator : public Estimator {
     Clutter clutter_;
     Backlash backlash_;
     EdgeContrast contrast_;
+    MeasurementNoise noise_;
     Bend bend_;
     ContourOffsets offsets_;
     NoiseWatch watch_;
@@ -129,7 +108,6 @@ class KalmanEstimator : public Estimator {
     Pose way_begin_;
     bool stands_still_ = false;  // among noise
     LeadPrior lead_prior_;
-    double noise_gain_ = 1;  // g_R
     double visible_share_ = 1;
     double most_pose_sigma_px_ = 0;
     double speed_px_s_ = 0;  // u, when the filter was spread last

@@ -78,7 +78,7 @@ class TwistFilter {
         State p_h;     ///< P·Hᵀ
         double h_p_h;  ///< H·P·Hᵀ
     };
-    [[nodiscard]] Row row(const Step& j, int lead, double h) const {
+    [[nodiscard, gnu::always_inline]] Row row(const Step& j, int lead, double h) const {
         Row row;
         row.p_h.noalias() = covariance_.template leftCols<dof>() * j;
         const int at = 2 * dof + lead;
@@ -93,8 +93,8 @@ class TwistFilter {
     /// reduction: the measurement is one of this state with that probability. Where many are not,
     /// that it may or may not be spreads the estimate (Bar-Shalom's probabilistic data
     /// association): without that, events of noise alone would make it sure of itself.
-    void correct(const Row& row, double residual_px, double variance_px2, double weight,
-                 bool is_doubtful = false) {
+    [[gnu::always_inline]] void correct(const Row& row, double residual_px, double variance_px2,
+                                        double weight, bool is_doubtful = false) {
         State gain = row.p_h * (weight / variance_px2);
         M::apply(gain.template head<dof>() * residual_px, pose_);
         twist_ += gain.template segment<dof>(dof) * residual_px;

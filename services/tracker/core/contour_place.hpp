@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+
+#include "services/tracker/core/candidate_grid.hpp"
+#include "services/tracker/core/kinds.hpp"
+
+namespace pursuit::tracker {
+
+/// The place of a contour that is nearest to an event.
+struct ContourPlace {
+    std::int32_t piece = -1;   ///< -1: none within reach.
+    Eigen::Vector2d model_px;  ///< In the model frame.
+    Eigen::Vector2d arm_px;    ///< In the image, about T.
+    Eigen::Vector2d n;         ///< The contour's unit normal there, image.
+    double r_px = 0;           ///< Along it, from the place to the event.
+    double squared_px = 0;     ///< The distance, squared.
+};
+
+/// Nearest in the image, under A of this kind of transform; q: the event about T, image px. The
+/// pieces must be built for reach_px.
+template <TransformKind kind>
+[[nodiscard, gnu::always_inline]] inline ContourPlace place_on_contour(const CandidateGrid& pieces,
+                                                                       const Eigen::Matrix2d& a,
+                                                                       const Eigen::Vector2d& q,
+                                                                       double reach_px) {
+    CandidateGrid::Nearest nearest;
+    if constexpr (kind == TransformKind::isometry || kind == TransformKind::similarity) {
+        // What is nearest in the image is so in the model frame; the inverse of A is its transpose,
+        // but for the scale.
+        Eigen::Vector2d x(a(0, 0) * q.x() + a(1, 0) * q.y(), a(0, 0) * q.y() - a(1, 0) * q.x());
+        double scale2 = 1;
+        if constexpr (kind == TransformKind::similarity) {
+            scale2 = a(0, 0) * a(0, 0) + a(1, 0) * a(1, 0);
+            x /= scale2;
+        }
+        nearest = pieces.nearest(x.x(), x.y(), ModelMetric());
+        nearest.squared_px *= scale2;
+    } else {
+        const double per_area = 1 / (a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
+        nearest = pieces.nearest((a(1, 1) * q.x() - a(0, 1) * q.y()) * per_area,
+                                 (a(0, 0) * q.y() - a(1, 0) * q.x()) * per_area, ImageMetric(a));
+    }
+    ContourPlace place;
+    if (nearest.piece < 0 || nearest.squared_px > reach_px * reach_px) return place;
+    place.piece = nearest.piece;
+    place.squared_px = nearest.squared_px;
+    const Segment& segment = pieces.segment(nearest.piece);
+    place.model_px << segment.ax + nearest.foot * segment.dx,
+        segment.ay + nearest.foot * segment.dy;
+    place.arm_px = a * place.model_px;
+    const Eigen::Vector2d off = q - place.arm_px;
+    if (!(segment.per_length2 > 0)) {
+        const double distance_px = std::sqrt(place.squared_px);
+        place.n = distance_px > 1e-9 ? Eigen::Vector2d(off / distance_px) : Eigen::Vector2d(1, 0);
+    } else if constexpr (kind == TransformKind::isometry) {
+        place.n = a * Eigen::Vector2d(segment.nx, segment.ny);
+    } else {
+        const Eigen::Vector2d along = a * Eigen::Vector2d(segment.dx, segment.dy);
+        const double per_length = 1 / along.norm();
+        place.n << along.y() * per_length, -along.x() * per_length;
+    }
+    place.r_px = place.n.dot(off);
+    return place;
+}
+
+}  // namespace pursuit::tracker

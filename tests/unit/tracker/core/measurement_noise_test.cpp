@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/measurement_noise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace pursuit::tracker {
+namespace {
+
+TEST(MeasurementNoise, tells_densities_that_integrate_to_one) {
+    const MeasurementNoise noise;
+    for (const bool is_subsequent : {false, true}) {
+        double sum = 0;
+        for (double r_px = -20; r_px < 20; r_px += 0.01) {
+            sum += 0.01 * noise.at(r_px, 0.05, is_subsequent).likelihood();
+        }
+        EXPECT_NEAR(sum, 1, 1e-3);
+    }
+}
+
+TEST(MeasurementNoise, takes_what_strays_for_the_tail) {
+    const MeasurementNoise noise;
+    const auto near = noise.at(0.1, 0.02, false);
+    const auto stray = noise.at(2.5, 0.02, false);
+    EXPECT_GT(near.near_likelihood, 5 * near.tail_likelihood);
+    EXPECT_LT(stray.near_likelihood, 0.01 * stray.tail_likelihood);
+    // The measurement counts as the one or the other.
+    EXPECT_NEAR(near.variance_px2(), near.near_px2, 0.2 * near.near_px2);
+    EXPECT_NEAR(stray.variance_px2(), stray.near_px2 + stray.tail_px2, 0.1 * stray.tail_px2);
+}
+
+TEST(MeasurementNoise, trusts_first_events_more_than_subsequent_ones) {
+    const MeasurementNoise noise;
+    EXPECT_LT(noise.at(0, 0, false).near_px2, noise.at(0, 0, true).near_px2);
+}
+
+TEST(MeasurementNoise, learns_the_variance_of_what_comes) {
+    std::mt19937 random(3);
+    for (const double sigma_px : {0.25, 0.4, 0.8}) {
+        MeasurementNoise noise;
+        std::normal_distribution<double> residual_px(0, sigma_px);
+        for (int i = 0; i < 30'000; ++i) {
+            const double r_px = residual_px(random);
+            noise.learn(r_px, noise.at(r_px, 0, false), 1);
+        }
+        // It settles where the mean squared residual is 1.3 of it.
+        EXPECT_NEAR(noise.at(0, 0, false).near_px2 / (sigma_px * sigma_px), 1 / 1.3, 0.1);
+    }
+}
+
+TEST(MeasurementNoise, stays_within_its_bounds_whatever_comes) {
+    MeasurementNoise noise;
+    for (int i = 0; i < 100'000; ++i) noise.learn(100, noise.at(100, 0, false), 1);
+    EXPECT_EQ(noise.gain(), 16);
+    for (int i = 0; i < 100'000; ++i) noise.learn(0, noise.at(0, 0, false), 1);
+    EXPECT_EQ(noise.gain(), 0.2);
+    noise.restart();
+    EXPECT_EQ(noise.gain(), 1);
+}
+
+TEST(MeasurementNoise, has_a_heavier_and_wider_tail_where_the_model_is_another_than_the_object) {
+    MeasurementNoise noise;
+    const auto usual = noise.at(4, 0, false);
+    while (noise.gain() < 6) noise.learn(4, noise.at(4, 0, false), 1);
+    const auto misfit = noise.at(4, 0, false);
+    EXPECT_GT(misfit.tail_px2, 2 * usual.tail_px2);
+    EXPECT_GT(misfit.tail_likelihood, usual.tail_likelihood);
+}
+
+}  // namespace
+}  // namespace pursuit::tracker
