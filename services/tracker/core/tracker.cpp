@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
-#include <iterator>
 
-#include "services/tracker/core/association/by_distance.hpp"
-#include "services/tracker/core/association/strategy.hpp"
+#include "services/tracker/core/association/arbiter.hpp"
 #include "services/tracker/core/occlusion.hpp"
 #include "services/tracker/core/pose_grid.hpp"
 #include "services/tracker/core/reach_map.hpp"
@@ -45,12 +43,10 @@ class Tracker::Impl {
     Impl(TrackerOptions given, const Preset& preset)
         : options(std::move(given)),
           registry(options.max_objects, options.next_object_id, preset),
-          grid(options.pose_rate_hz, options.max_poses_per_s) {
-        set_strategy(preset.strategy, preset.strategy_parameters);
+          grid(options.pose_rate_hz, options.max_poses_per_s),
+          arbiter(options.max_objects) {
+        arbiter.set_strategy(preset.strategy, preset.strategy_parameters);
         tells_occlusion = preset.tracker.tells_occlusion >= 0.5;
-        claims.resize(options.max_objects);
-        claimants.resize(options.max_objects);
-        ambiguous.reserve(options.max_objects);
     }
 
     /// A call's effect on the tracks, held back until the last processed time is over.
@@ -119,13 +115,13 @@ class Tracker::Impl {
         if (!changes.empty()) wake_us = std::min(wake_us, changes.front().effective_time_us);
     }
 
-    // The paper's algorithm, for one event.
-    void process(const Event& event, PoseSink& sink) {
+    // The paper's algorithm, for one event. (Always inlined: gcc would not.)
+    [[gnu::always_inline]] void process(const Event& event, PoseSink& sink) {
         const std::int64_t since_same_us = recent.note(event);
         seeker.see(event);
 
         // The objects it may belong to, by the nearest place of each model (3.1).
-        std::size_t count = 0;
+        arbiter.begin();
         reach_map.for_each(event.x, event.y, [&](std::size_t i) {
             Track& track = tracks[i];
             const Approach near = track.approach(event, since_same_us);
@@ -134,25 +130,24 @@ class Tracker::Impl {
                 track.deny();
                 return;
             }
-            claims[count] = {track.object_id(), near.distance_px, 0, near.clutter, 0};
-            claimants[count++] = i;
+            arbiter.claim(i, track.object_id(), near.distance_px, near.clutter);
         });
-        if (count == 0) {
+        if (arbiter.count() == 0) {
             ++counters.events_unused;
             return;
         }
 
         // Whose it is (section 3.3), and the steps that follow from it (3.2).
         bool is_used = false;
-        if (count == 1 && !strategy_listens) {
-            is_used = step(event, claimants[0], 1, sink);
+        if (arbiter.is_plain()) {
+            is_used = step(event, arbiter.claimant(0), 1, sink);
         } else {
-            give(event, {claims.data(), count});
-            for (std::size_t i = 0; i < count; ++i) {
-                if (!(claims[i].weight > 0)) continue;
-                if (!step(event, claimants[i], claims[i].weight, sink)) continue;
+            arbiter.give(event, [&](std::size_t i) { return tracks[i].likelihood(); });
+            for (std::size_t i = 0; i < arbiter.count(); ++i) {
+                if (!(arbiter.weight(i) > 0)) continue;
+                if (!step(event, arbiter.claimant(i), arbiter.weight(i), sink)) continue;
                 is_used = true;
-                if (strategy_listens) strategy->used(event, claims[i]);
+                arbiter.used(event, i);
             }
         }
         ++(is_used ? counters.events_used : counters.events_unused);
@@ -187,47 +182,6 @@ class Tracker::Impl {
         wake_us = 0;
     }
 
-    // Sets the weights of the claims: an event that is ambiguous, near two objects or more, is the
-    // strategy's to give, any other the closest object's.
-    void give(const Event& event, std::span<Claim> given_claims) {
-        if (given_claims.size() < 2) {
-            given_claims[0].weight = 1;
-            strategy->near(event, given_claims);
-            strategy->confirm(event, given_claims[0]);
-            return;
-        }
-        for (std::size_t i = 0; i < given_claims.size(); ++i) {
-            given_claims[i].likelihood = tracks[claimants[i]].likelihood();
-        }
-        strategy->near(event, given_claims);
-        const double near_px = ambiguity_px;
-        const auto is_near = [&](const Claim& claim) { return claim.distance_px <= near_px; };
-        const auto near_count = std::count_if(given_claims.begin(), given_claims.end(), is_near);
-        if (near_count < 2) {
-            Closest().assign(event, given_claims);
-            for (Claim& claim : given_claims) {
-                if (claim.weight > 0) strategy->confirm(event, claim);
-            }
-            return;
-        }
-        if (static_cast<std::size_t>(near_count) == given_claims.size()) {
-            strategy->assign(event, given_claims);
-            return;
-        }
-        ambiguous.clear();
-        std::copy_if(given_claims.begin(), given_claims.end(), std::back_inserter(ambiguous),
-                     is_near);
-        strategy->assign(event, ambiguous);
-        auto next = ambiguous.begin();
-        for (Claim& claim : given_claims) claim.weight = is_near(claim) ? (next++)->weight : 0;
-    }
-
-    void set_strategy(StrategyKind kind, const StrategyParameters& parameters) {
-        strategy = make_strategy(kind, parameters);
-        strategy_listens = strategy->listens();
-        ambiguity_px = parameters.ambiguity_px;
-    }
-
     Track* find_track(std::uint32_t object_id) {
         const auto found = std::find_if(tracks.begin(), tracks.end(), [&](const Track& track) {
             return track.object_id() == object_id;
@@ -244,9 +198,7 @@ class Tracker::Impl {
     std::int64_t last_t_us = -1;
     std::deque<Change> changes;
     RecentPixels recent;
-    std::unique_ptr<Strategy> strategy;
-    bool strategy_listens = false;
-    double ambiguity_px = 3;
+    Arbiter arbiter;
     std::vector<Track> tracks;  // in order of ids
     bool tells_occlusion = true;
     Occlusion occlusion;
@@ -254,11 +206,6 @@ class Tracker::Impl {
     ReachMap reach_map;
     std::int64_t next_round_us = 0;
     std::int64_t wake_us = 0;  // not before it is there anything to do but to take events
-
-    // Of the event in hand; kept to allocate nothing an event.
-    std::vector<Claim> claims;
-    std::vector<Claim> ambiguous;
-    std::vector<std::size_t> claimants;  // of the tracks
 };
 
 CallResult<Tracker> Tracker::create(const TrackerOptions& options) {
@@ -290,7 +237,7 @@ void Tracker::begin_stream(Geometry geometry, std::uint64_t stream_id) {
     impl_->grid.restart();
     impl_->recent.restart(geometry);
     impl_->seeker.restart(geometry);
-    impl_->strategy->restart();
+    impl_->arbiter.restart();
     for (Track& track : impl_->tracks) track.begin_stream();
     impl_->restart_round();
 }
@@ -347,7 +294,7 @@ CallResult<void> Tracker::remove_object(std::string_view name) {
     impl_->hold([impl = impl_.get(), object_id = *removed] {
         std::erase_if(impl->tracks,
                       [&](const Track& track) { return track.object_id() == object_id; });
-        impl->strategy->forget(object_id);
+        impl->arbiter.forget(object_id);
     });
     return {};
 }
@@ -357,7 +304,7 @@ CallResult<void> Tracker::set_pose(std::string_view name, const Start& start) {
     if (!changed) return tl::unexpected(changed.error());
     impl_->hold([impl = impl_.get(), object = **changed] {
         if (Track* track = impl->find_track(object.object_id)) track->restart(object);
-        impl->strategy->forget(object.object_id);
+        impl->arbiter.forget(object.object_id);
     });
     return {};
 }
@@ -366,7 +313,7 @@ CallResult<void> Tracker::set_strategy(StrategyKind kind, std::span<const NamedV
     auto changed = impl_->registry.set_strategy(kind, parameters, effective_time_us());
     if (!changed) return changed;
     impl_->hold([impl = impl_.get(), settings = impl_->registry.settings()] {
-        impl->set_strategy(settings.strategy, settings.strategy_parameters);
+        impl->arbiter.set_strategy(settings.strategy, settings.strategy_parameters);
     });
     return {};
 }
