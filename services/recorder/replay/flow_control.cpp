@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/recorder/replay/flow_control.hpp"
 
+#include <chrono>
 #include <thread>
+#include <utility>
 
 namespace pursuit::recorder {
 namespace {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "services/recorder/replay/raw_writer.hpp"
 #include "status.h"

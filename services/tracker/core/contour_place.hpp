@@ -45,7 +45,7 @@ template <TransformKind kind>
                                  (a(0, 0) * q.y() - a(1, 0) * q.x()) * per_area, ImageMetric(a));
     }
     ContourPlace place;
-    if (nearest.piece < 0 || nearest.squared_px > reach_px * reach_px) return place;
+    if (nearest.piece < 0 || !(nearest.squared_px <= reach_px * reach_px)) return place;
     place.piece = nearest.piece;
     place.squared_px = nearest.squared_px;
     const Segment& segment = pieces.segment(nearest.piece);

@@ -8,7 +8,7 @@
 namespace pursuit::tracker {
 namespace {
 
-// After so many events this much stays of what was counted before.
+// What was counted fades to 1/e over so many events.
 constexpr double memory_events = 375;
 
 // Also a part that moves along itself makes some events.

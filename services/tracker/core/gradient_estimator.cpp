@@ -56,7 +56,7 @@ Approach GradientEstimator::approach(const Event& event, std::int64_t) {
     CandidateGrid::Nearest nearest;
     const auto look_up = [&](double x, double y, const auto& metric) {
         nearest = (wants_points ? contour_.points() : contour_.pieces()).nearest(x, y, metric);
-        if (nearest.piece < 0 || nearest.squared_px > gate2) return;
+        if (nearest.piece < 0 || !(nearest.squared_px <= gate2)) return;
         on_contour = wants_points ? contour_.pieces().nearest_among(
                                         contour_.pieces_at(nearest.piece), x, y, metric)
                                   : nearest;
@@ -71,7 +71,7 @@ Approach GradientEstimator::approach(const Event& event, std::int64_t) {
         look_up((a(1, 1) * q_.x() - a(0, 1) * q_.y()) * per_area,
                 (a(0, 0) * q_.y() - a(1, 0) * q_.x()) * per_area, ImageMetric(a));
     }
-    if (nearest.piece < 0 || nearest.squared_px > gate2) return {};
+    if (nearest.piece < 0 || !(nearest.squared_px <= gate2)) return {};
     distance_px_ = std::sqrt(nearest.squared_px);
     m_ = (wants_points ? contour_.points() : contour_.pieces()).place(nearest);
     t_us_ = event.t_us;

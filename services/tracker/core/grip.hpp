@@ -15,8 +15,8 @@ namespace pursuit::tracker {
 /// How well its events hold a track: whether they fit its pose (Health), whether they come from all
 /// of its contour (Cover), and for how long they have spoken against the pose.
 ///
-/// Events are counted one by one and weighed some together, every few of them and every half ms:
-/// what they say changes over hundreds. Thread: the tracker's.
+/// Events are counted one by one and weighed some together, when is_due() and when the track's time
+/// goes on: what they say changes over hundreds. Thread: the tracker's.
 class Grip {
  public:
     Grip() = default;
@@ -28,7 +28,8 @@ class Grip {
         cover_.restart();
         forgive();
     }
-    /// What has spoken against the pose is no more of interest.
+    /// What has spoken against the pose, and what was counted and not weighed, is no more of
+    /// interest.
     void forgive() {
         against_us_ = 0;
         sharp_ = astray_ = 0;
@@ -63,7 +64,7 @@ class Grip {
         if (!is_against && against_us_ == 0) return;
         against_us_ = std::max<std::int64_t>(against_us_ + (is_against ? dt_us : -2 * dt_us), 0);
     }
-    /// Every half ms: where they come from, when enough came.
+    /// To be called often: where they come from, when enough came, every 2 ms at most.
     void look_around(std::int64_t t_us, const Outline& outline, const Pose& pose,
                      const Velocity& velocity) {
         if (!cover_.is_due() || t_us - looked_us_ < look_every_us) return;

@@ -58,7 +58,7 @@ class Health {
     [[nodiscard]] double relative_sharpness() const { return sharpness_ / usual_sharpness_; }
     /// Whether enough events came since the restart to tell.
     [[nodiscard]] bool is_settled() const { return events_ >= window_events; }
-    /// Whether the last event came in a quiet time.
+    /// Whether the events counted last came in a quiet time.
     [[nodiscard]] bool is_quiet() const { return is_quiet_; }
     /// The last event that did not.
     [[nodiscard]] std::int64_t lively_t_us() const { return lively_t_us_; }

@@ -18,7 +18,7 @@ namespace pursuit::tracker {
 class HiddenWay {
  public:
     /// Nothing is known of how it goes.
-    void restart() { slow_.restart(); }
+    void restart() { *this = HiddenWay(); }
 
     /// While it is in view: whether another pose is wanted, and the pose.
     [[nodiscard]] bool is_due(std::int64_t t_us) const { return slow_.is_due(t_us); }

@@ -73,6 +73,8 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     offsets_.restart();
     noise_.restart();
     most_pose_sigma_px_ = most_pose_sigma_px;
+    residual_px_ = 0.5;
+    speed_px_s_ = 0;
     t_us_ = -1;
     unspread_s_ = 0;
     way_begin_ = pose;
@@ -244,8 +246,9 @@ template <TransformKind kind>
 double KalmanEstimator<kind>::lead_px(std::int32_t piece, int lead) const {
     const auto& leads_px = filter_.lead_px();
     const int first = lead & ~1;
-    return leads_px(lead) + contrast_.earlier(piece, first / 2, speed_px_s_) *
-                                (leads_px(first) - leads_px(first + 1));
+    const double earlier_px =
+        contrast_.earlier(piece, first / 2, speed_px_s_) * (leads_px(first) - leads_px(first + 1));
+    return std::clamp(leads_px(lead) + earlier_px, least_lead_px, most_lead_px);
 }
 
 template <TransformKind kind>

@@ -69,7 +69,8 @@ class KalmanEstimator : public Estimator {
     void measure_size();
     [[nodiscard]] double effective_length_px() const;
 
-    /// How far ahead of the piece an event of this kind comes.
+    /// How far ahead of the piece an event of this kind comes. (What it says of the leads is taken
+    /// for what the event's own lead alone has part in: its contrast changes slowly.)
     [[nodiscard]] double lead_px(std::int32_t piece, int lead) const;
 
     /// What approach() found, for take().

@@ -25,8 +25,9 @@ constexpr double trial_gate_px = 6;
 // So many events that should have come and have not: it was silent, all at once.
 constexpr double silent_events = 30;
 constexpr std::int64_t silent_us = 3'000;
-constexpr double unseen_way_px = 5;  // and may have gone so far meanwhile
-constexpr double same_px = 2.5;
+constexpr double unseen_way_px = 5;    // and may have gone so far meanwhile
+constexpr double silent_way_px = 2.5;  // unless it has gone farther
+constexpr std::int64_t pause_us = 500;
 constexpr double checked_share = 0.7;
 constexpr int start_confirmations = 3;
 constexpr int found_confirmations = 2;
@@ -93,7 +94,8 @@ void Track::restart(const RegisteredObject& object) {
     is_searching_ = object.start.search;
     is_acquiring_ = false;
     is_covered_ = is_adrift_ = false;
-    emerged_us_ = -1;
+    emerges_ = false;
+    emerged_us_ = emerged_at_us_ = -1;
     acquired_us_ = doubted_us_ = never_us;
     trial_until_us_ = -1;
     visible_share_ = 1;
@@ -113,19 +115,22 @@ void Track::begin_stream() {
     vanishing_.restart();
     heard_us_ = -1;
     is_silent_ = false;
+    trial_until_us_ = -1;
+    emerges_ = false;
+    emerged_us_ = emerged_at_us_ = -1;
     if (doubt_.is_open()) begin_doubt(0, start_confirmations, 0);
+    // What was tried was seen in the stream before.
+    if (is_searching_) is_acquiring_ = false;
     // A start pose that no event has moved yet was given for the stream that begins.
     if (is_searching_ || is_fresh_) return;
-    hidden_way_.restart();
     tally_.begin_stream();
-    trial_until_us_ = -1;
     acquired_us_ = doubted_us_ = never_us;
-    emerged_us_ = -1;
     // How long the sensor was away is not known: the last good pose, at rest.
     const Pose last = is_covered_     ? hidden_way_.last().pose
                       : is_acquiring_ ? good_[1].pose
                                       : estimator_->pose();
     is_covered_ = false;
+    hidden_way_.restart();
     for (Coast& good : good_) good = {0, last, {}};
     last_event_t_us_ = 0;
     lose_grip(0);
@@ -172,7 +177,8 @@ void Track::weigh(std::int64_t t_us) {
     if (doubt_.is_open() && estimator_->stands_out()) doubt_.settle();
     const bool is_old = good_[0].t_us < 0 || t_us - good_[0].t_us >= keep_every_us;
     const bool is_good = health.is_fair() && !health.is_quiet() && !grip_.is_against();
-    if (is_old && is_good && !doubt_.is_open()) remember_good(t_us);
+    if (has_moved_ && is_old && is_good && !doubt_.is_open()) remember_good(t_us);
+    has_moved_ = false;
 }
 
 void Track::acquire(std::int64_t t_us) {
@@ -252,7 +258,7 @@ bool Track::is_silent(std::int64_t t_us) const {
 void Track::hear(std::int64_t t_us) {
     if (emerged_us_ >= 0 || is_silent_ || !is_silent(t_us)) return;
     const std::int64_t silence_us = t_us - heard_us_;
-    if (silence_us < silent_us && seconds(silence_us) * speed_px_s() < same_px) return;
+    if (silence_us < silent_us && seconds(silence_us) * speed_px_s() < silent_way_px) return;
     is_silent_ = true;
     const Coast before{heard_us_, estimator_->pose(), estimator_->velocity()};
     begin_doubt(t_us, found_confirmations, t_us, before);
@@ -321,11 +327,13 @@ bool Track::take(const Event& event, double weight) {
         acquisition_->take();
         if (acquisition_->is_done()) acquire(event.t_us);
     } else {
+        // After a pause the next one says by itself whether it is quiet.
+        const bool was_pause = event.t_us - heard_us_ > pause_us;
         heard_us_ = event.t_us;
         is_silent_ = false;
         const bool is_sharp = distance_px_ < sharp_px_;
         grip_.count(is_sharp);
-        if (grip_.is_due()) {
+        if (was_pause || grip_.is_due()) {
             weigh(event.t_us);
             if (is_acquiring_) return false;
         }
@@ -335,6 +343,7 @@ bool Track::take(const Event& event, double weight) {
             return false;
         }
         if (!estimator_->take(weight)) return false;
+        has_moved_ = true;
         if (is_sharp && piece_ >= 0) {
             grip_.count_place(piece_);
             outline_.count(piece_, weight);

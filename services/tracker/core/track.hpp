@@ -173,6 +173,7 @@ class Track {
     bool is_searching_ = false;
     bool is_acquiring_ = false;
     bool is_fresh_ = true;       // since the restart no event was taken
+    bool has_moved_ = false;     // by an event since the last weigh()
     bool does_not_fit_ = false;  // the grip was lost to events of something else
     Coast good_[2];  // the last, and the one before: older than what made the events mismatch
     std::int64_t grip_lost_us_ = 0;

@@ -44,8 +44,7 @@ class Tracker::Impl {
         : options(std::move(given)),
           registry(options.max_objects, options.next_object_id, preset),
           grid(options.pose_rate_hz, options.max_poses_per_s),
-          arbiter(options.max_objects) {
-        arbiter.set_strategy(preset.strategy, preset.strategy_parameters);
+          arbiter(options.max_objects, preset.strategy, preset.strategy_parameters) {
         tells_occlusion = preset.tracker.tells_occlusion >= 0.5;
     }
 

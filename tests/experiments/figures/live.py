@@ -14,8 +14,8 @@ def run(settings):
     duration_s = 3  # busy is told of whole seconds
     page.text(f"Sensor, tracker and a viewer are processes of their own on loopback, {len(seeds)} "
               f"streams of {duration_s} s each; the numbers are the worst of them. Busy: processing "
-              "time over event time, in the mean and of the worst second (whatever else the machine "
-              "did then is in it). Lag: how far the tracker was behind the sensor's clock, told "
+              "time over event time, in the mean and of the worst of the seconds that the "
+              "status told (whatever else the machine did then is in it). Lag: how far the tracker was behind the sensor's clock, told "
               "every second. Late: from the instant at which a pose's packet was to be "
               "sent to the pose's publication; a packet is closed after 1 ms.")
     settings.scores.jobs = 1

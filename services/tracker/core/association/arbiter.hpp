@@ -16,11 +16,14 @@ namespace pursuit::tracker {
 /// ambiguous, near two objects or more, is the strategy's to give; any other the closest object's.
 ///
 /// Of each event: begin(), a claim() for each object that it is near, in order of ids; give() where
-/// it is not plain; then the weights are there. Allocates nothing an event. Thread: the tracker's.
+/// it is not plain; then the weights are there (of a plain one it is 1). Allocates nothing an
+/// event. Thread: the tracker's.
 class Arbiter {
  public:
-    explicit Arbiter(std::size_t most_objects) : claims_(most_objects), claimants_(most_objects) {
+    Arbiter(std::size_t most_objects, StrategyKind kind, const StrategyParameters& parameters)
+        : claims_(most_objects), claimants_(most_objects) {
         ambiguous_.reserve(most_objects);
+        set_strategy(kind, parameters);
     }
 
     void set_strategy(StrategyKind kind, const StrategyParameters& parameters);

@@ -76,8 +76,14 @@ TEST(EdgeContrast, forgets_what_was_long_ago) {
 TEST(EdgeContrast, knows_nothing_after_a_restart) {
     EdgeContrast contrast = of_a_weak_and_a_strong_edge(1000);
     contrast.restart(3);
+    EdgeContrast fresh;
+    fresh.restart(3);
     EXPECT_EQ(contrast.earlier(0, on, of_traffic_px_s), 0);
-    EXPECT_EQ(contrast.earlier(1, on, of_traffic_px_s), 0);
+    for (EdgeContrast* one : {&contrast, &fresh}) {
+        for (int i = 0; i < 10; ++i) one->count(i % 2, on, i > 5, 1);
+    }
+    EXPECT_EQ(contrast.earlier(0, on, of_traffic_px_s), fresh.earlier(0, on, of_traffic_px_s));
+    EXPECT_EQ(contrast.earlier(1, on, of_traffic_px_s), fresh.earlier(1, on, of_traffic_px_s));
 }
 
 }  // namespace

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/grip.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/tracker/core/scene.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+constexpr double let_go = 0.33;
+
+/// 10,000 events a second until then, every `sharp_of`-th of them on the contour.
+void hold_grip(Grip& grip, std::int64_t from_us, std::int64_t until_us, int sharp_of) {
+    for (std::int64_t t_us = from_us, i = 0; t_us < until_us; t_us += 100, ++i) {
+        grip.count(i % sharp_of == 0);
+        if (grip.is_due()) grip.weigh(t_us, false, let_go);
+    }
+}
+
+TEST(Grip, is_lost_when_events_have_spoken_against_the_pose_for_60_ms) {
+    Grip grip(Contour(test::arrow()));
+    hold_grip(grip, 0, 200'000, 1);
+    EXPECT_FALSE(grip.is_against());
+    EXPECT_GT(grip.fit(), 0.9);
+    std::int64_t against_us = -1;
+    std::int64_t lost_us = -1;
+    for (std::int64_t t_us = 200'000; t_us < 400'000 && lost_us < 0; t_us += 1000) {
+        hold_grip(grip, t_us, t_us + 1000, 5);
+        if (against_us < 0 && grip.is_against()) against_us = t_us;
+        if (grip.is_lost()) lost_us = t_us;
+    }
+    EXPECT_NEAR(static_cast<double>(lost_us - against_us), 60'000, 2000);
+    EXPECT_LT(grip.fit(), 0.3);
+}
+
+TEST(Grip, forgives_when_it_is_told_to) {
+    Grip grip(Contour(test::arrow()));
+    hold_grip(grip, 0, 300'000, 5);
+    ASSERT_TRUE(grip.is_lost());
+    grip.forgive();
+    EXPECT_FALSE(grip.is_against());
+}
+
+TEST(Grip, waits_for_some_events_before_it_weighs_them) {
+    Grip grip(Contour(test::arrow()));
+    EXPECT_FALSE(grip.is_counting());
+    grip.count(true);
+    EXPECT_TRUE(grip.is_counting());
+    EXPECT_FALSE(grip.is_due());
+    for (int i = 0; i < 7; ++i) grip.count(i % 2 == 0);
+    EXPECT_TRUE(grip.is_due());
+    EXPECT_EQ(grip.sharp(), 5);
+    EXPECT_EQ(grip.astray(), 3);
+    grip.weigh(0, false, let_go);
+    EXPECT_FALSE(grip.is_counting());
+}
+
+}  // namespace
+}  // namespace pursuit::tracker

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/hidden_way.hpp"
+
+#include <gtest/gtest.h>
+
+namespace pursuit::tracker {
+namespace {
+
+TEST(HiddenWay, goes_on_at_the_velocity_of_the_last_second) {
+    HiddenWay way;
+    const auto truth = [](std::int64_t t_us) {
+        const double t_s = static_cast<double>(t_us) * 1e-6;
+        return pose_of(20 + 80 * t_s, 50 - 30 * t_s, 3 + 0.5 * t_s);
+    };
+    for (std::int64_t t_us = 0; t_us <= 1'000'000; t_us += 16'000) way.learn(t_us, truth(t_us));
+    // The last events say that it stands still: it is believed less than the second before.
+    way.begin({1'000'000, truth(1'000'000), {}});
+    for (std::int64_t t_us = 1'016'000; t_us <= 1'500'000; t_us += 16'000) {
+        way.go_on(t_us, 0.016, TransformKind::isometry);
+    }
+    const Pose last = way.pose_at(1'500'000);
+    EXPECT_NEAR((last.t_px - truth(1'500'000).t_px).norm(), 0, 0.01);
+    EXPECT_NEAR((way.last().pose.a - truth(way.last().t_us).a).norm(), 0, 1e-3);
+}
+
+TEST(HiddenWay, goes_on_as_it_did_where_nothing_was_learnt) {
+    HiddenWay way;
+    way.begin({0, pose_of(5, 5, 0), {10, 0, 0, 0, 0}});
+    EXPECT_NEAR(way.pose_at(1'000'000).t_px.x(), 15, 1e-9);
+}
+
+}  // namespace
+}  // namespace pursuit::tracker
