@@ -179,6 +179,32 @@ TEST(Life, finds_its_object_again_in_a_new_stream_around_the_last_pose) {
     EXPECT_LT(rms_px(arrow(), last(again).pose, later(5e5)), 1);
 }
 
+TEST(Life, of_an_object_that_is_searched_begins_anew_with_a_stream_wherever_the_last_one_ended) {
+    // There it is somewhere else.
+    const auto then = [](double t_us) { return swinging(t_us - 10e6); };
+    const auto now = [](double t_us) { return swinging(t_us + 1.3e6); };
+    const auto before =
+        outline_events(arrow(), then, 10'000'000, 10'160'000, 60, 5, small_sensor, 1);
+    const auto after = outline_events(arrow(), now, 0, 400'000, 60, 5, small_sensor, 2);
+    for (std::int64_t end_us = 10'020'000; end_us <= 10'160'000; end_us += 10'000) {
+        Tracker tracker = std::move(*Tracker::create({}));
+        Registration registration;
+        registration.shape = arrow();
+        registration.start.search = true;
+        tracker.begin_stream(small_sensor, 1);
+        ASSERT_TRUE(tracker.register_object(registration));
+        const auto end = std::find_if(before.begin(), before.end(),
+                                      [&](const Event& event) { return event.t_us >= end_us; });
+        Poses poses;
+        tracker.process(std::vector<Event>(before.begin(), end), poses);
+        tracker.begin_stream(small_sensor, 2);
+        poses = {};
+        tracker.process(after, poses);
+        EXPECT_EQ(last(poses).state, TrackState::tracking) << end_us;
+        EXPECT_LT(rms_px(arrow(), last(poses).pose, now(4e5)), 2) << end_us;
+    }
+}
+
 TEST(Health, tells_events_on_the_contour_from_events_anywhere) {
     std::mt19937 random(1);
     Health on_it;
