@@ -11,7 +11,7 @@
 namespace pursuit::sensor {
 namespace {
 
-constexpr double sigma_px = 0.6;
+constexpr double edge_sigma_px = 0.6;
 
 /// Brightness by brute force: the Gaussian summed over a fine grid of points, each as bright as
 /// the frontmost polygon over it.
@@ -33,8 +33,8 @@ double brute_force(const DrawnScene& scene, double t_s, double x, double y) {
         for (int k = -half; k <= half; ++k) {
             const double weight = std::exp(-(i * i + k * k) * step * step / 2);
             // Turned, so that no edge lies along the grid.
-            const Point p(x + (0.8 * i - 0.6 * k) * step * sigma_px,
-                          y + (0.6 * i + 0.8 * k) * step * sigma_px);
+            const Point p(x + (0.8 * i - 0.6 * k) * step * edge_sigma_px,
+                          y + (0.6 * i + 0.8 * k) * step * edge_sigma_px);
             double seen = scene.background_reflectance;
             for (const auto& [vertices, reflectance] : polygons) {
                 if (contains(vertices, p)) {
@@ -54,7 +54,7 @@ double worst_error(const std::string& layers, double t_s) {
         "name: \"s\" background_reflectance: 0.9 sensor { width: 40 height: 40 } " + layers, "s");
     EXPECT_TRUE(scene) << scene.error().message;
     const DrawnScene drawn = draw_scene(*scene, 1);
-    ImageEdges edges(drawn, sigma_px);
+    ImageEdges edges(drawn, edge_sigma_px);
     for (std::size_t i = 0; i < drawn.layers.size(); ++i) {
         edges.place(i, image_from_layer(drawn, drawn.layers[i], t_s));
     }

@@ -19,7 +19,7 @@ void hold_grip(Grip& grip, std::int64_t from_us, std::int64_t until_us, int shar
 }
 
 TEST(Grip, is_lost_when_events_have_spoken_against_the_pose_for_60_ms) {
-    Grip grip(Contour(test::arrow()));
+    Grip grip{Contour(test::arrow())};
     hold_grip(grip, 0, 200'000, 1);
     EXPECT_FALSE(grip.is_against());
     EXPECT_GT(grip.fit(), 0.9);
@@ -35,7 +35,7 @@ TEST(Grip, is_lost_when_events_have_spoken_against_the_pose_for_60_ms) {
 }
 
 TEST(Grip, forgives_when_it_is_told_to) {
-    Grip grip(Contour(test::arrow()));
+    Grip grip{Contour(test::arrow())};
     hold_grip(grip, 0, 300'000, 5);
     ASSERT_TRUE(grip.is_lost());
     grip.forgive();
@@ -43,7 +43,7 @@ TEST(Grip, forgives_when_it_is_told_to) {
 }
 
 TEST(Grip, waits_for_some_events_before_it_weighs_them) {
-    Grip grip(Contour(test::arrow()));
+    Grip grip{Contour(test::arrow())};
     EXPECT_FALSE(grip.is_counting());
     grip.count(true);
     EXPECT_TRUE(grip.is_counting());
