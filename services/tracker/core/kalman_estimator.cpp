@@ -55,11 +55,9 @@ KalmanEstimator<kind>::KalmanEstimator(const Contour& contour, const ObjectParam
 template <TransformKind kind>
 void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) {
     const double per_px = 1 / (contour_.gyration_px() * std::sqrt(std::abs(pose.a.determinant())));
-    Step pose_sigma = Step::Constant(start_pose_sigma_px * per_px);
-    pose_sigma.template head<2>().setConstant(start_pose_sigma_px);
-    Step twist_sigma = Step::Constant(start_speed_sigma_px_s * per_px);
-    twist_sigma.template head<2>().setConstant(start_speed_sigma_px_s);
-    filter_.restart(pose, M::twist_of(velocity), pose_sigma, twist_sigma);
+    filter_.restart(pose, M::twist_of(velocity),
+                    step_of(start_pose_sigma_px, start_pose_sigma_px * per_px),
+                    step_of(start_speed_sigma_px_s, start_speed_sigma_px_s * per_px));
     measure_size();
     filter_.restart_leads(LeadPrior::mean_px(), LeadPrior::covariance_px2());
     lead_prior_.restart();
@@ -87,11 +85,9 @@ void KalmanEstimator<kind>::resume(std::int64_t t_us, const Pose& pose, const Ve
                                    double way_px) {
     const double per_px = 1 / (contour_.gyration_px() * std::sqrt(std::abs(pose.a.determinant())));
     const double along_px = resumed_sigma_px + resumed_sigma_of_way * way_px;
-    Step pose_sigma = Step::Constant(resumed_turn_sigma_px * per_px);
-    pose_sigma.template head<2>().setConstant(resumed_sigma_px);
-    Step twist_sigma = Step::Constant(resumed_speed_sigma_px_s * per_px);
-    twist_sigma.template head<2>().setConstant(resumed_speed_sigma_px_s);
-    filter_.restart(pose, M::twist_of(velocity), pose_sigma, twist_sigma);
+    filter_.restart(pose, M::twist_of(velocity),
+                    step_of(resumed_sigma_px, resumed_turn_sigma_px * per_px),
+                    step_of(resumed_speed_sigma_px_s, resumed_speed_sigma_px_s * per_px));
     Eigen::Vector2d direction(velocity.vx_px_s, velocity.vy_px_s);
     if (direction.norm() > 0) direction.normalize();
     filter_.add_position_variance((along_px * along_px - resumed_sigma_px * resumed_sigma_px) *
@@ -185,8 +181,7 @@ void KalmanEstimator<kind>::spread(double dt_s) {
     // What shows of it by half tells by half where it turns.
     const double q =
         kappa * kappa * speed_px_s_ * speed_px_s_ * speed_px_s_ * visible_share_ * visible_share_;
-    Step noise = Step::Constant(q * size_.per_gyration2);
-    noise.template head<2>().setConstant(q);
+    Step noise = step_of(q, q * size_.per_gyration2);
     if constexpr (kind == TransformKind::similarity) noise(3) *= 0.2 * 0.2;
     if constexpr (kind == TransformKind::paper_affine) noise.template tail<2>() *= 0.7 * 0.7;
     if constexpr (kind == TransformKind::full_affine) noise.template tail<4>() *= 0.7 * 0.7;
@@ -224,11 +219,9 @@ void KalmanEstimator<kind>::look_out(std::int64_t t_us) {
                                 size_.gyration_px, size_.extent_px);
     if (!to) return;
     const double per_px = 1 / size_.gyration_px;
-    Step pose_sigma = Step::Constant(sighted_sigma_px * per_px);
-    pose_sigma.template head<2>().setConstant(sighted_sigma_px);
-    Step twist_sigma = Step::Constant(sighted_speed_sigma_px_s * per_px);
-    twist_sigma.template head<2>().setConstant(sighted_speed_sigma_px_s);
-    filter_.restart(to->pose, M::twist_of(to->velocity), pose_sigma, twist_sigma);
+    filter_.restart(to->pose, M::twist_of(to->velocity),
+                    step_of(sighted_sigma_px, sighted_sigma_px * per_px),
+                    step_of(sighted_speed_sigma_px_s, sighted_speed_sigma_px_s * per_px));
     unspread_s_ = 0;
     // It did not go this way event by event.
     clock_.begin_way();
@@ -245,6 +238,7 @@ double KalmanEstimator<kind>::reach_px(std::int64_t t_us) const {
 template <TransformKind kind>
 double KalmanEstimator<kind>::lead_px(std::int32_t piece, int lead) const {
     const auto& leads_px = filter_.lead_px();
+    if (parameters_.tells_contrast < 0.5) return leads_px(lead);
     const int first = lead & ~1;
     const double earlier_px =
         contrast_.earlier(piece, first / 2, speed_px_s_) * (leads_px(first) - leads_px(first + 1));

@@ -54,6 +54,12 @@ class KalmanEstimator : public Estimator {
 
     static constexpr bool is_bent = kind == TransformKind::full_affine;
 
+    /// The same in x and in y, and in every other component.
+    static Step step_of(double place, double about) {
+        Step step = Step::Constant(about);
+        step.template head<2>().setConstant(place);
+        return step;
+    }
     void predict_to(std::int64_t t_us);
     /// What the filter knows, dt_s after it was told last.
     void spread(double dt_s);

@@ -45,8 +45,13 @@ class Outline {
     void count(std::int32_t piece, double weight) {
         parts_[part_of_[static_cast<std::size_t>(piece)]].events += weight;
     }
+    /// Nothing has come yet; what is hidden stays so.
     void clear() {
         for (Part& part : parts_) part.events = 0;
+    }
+    /// Nothing is hidden.
+    void show_all() {
+        for (Part& part : parts_) part.is_hidden = false;
     }
 
     [[nodiscard]] std::vector<Part>& parts() { return parts_; }

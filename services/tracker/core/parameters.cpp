@@ -22,6 +22,9 @@ constexpr std::array object_table{
     Parameter<ObjectParameters>{"learns_offsets", &ObjectParameters::learns_offsets, 0, 1, "1",
                                 "1: kalman learns how far beside each piece of the contour its "
                                 "events come; 0: the model is right"},
+    Parameter<ObjectParameters>{"tells_contrast", &ObjectParameters::tells_contrast, 0, 1, "1",
+                                "1: kalman tells how strong each edge is, and how early its events "
+                                "come for it; 0: all edges are alike"},
     Parameter<ObjectParameters>{"gradient_position_gain", &ObjectParameters::gradient_position_gain,
                                 0, 0.5, "1", "eta1 of the paper: step of the position"},
     Parameter<ObjectParameters>{"gradient_angle_gain_rad_px2",

@@ -25,6 +25,7 @@ struct ObjectParameters {
     double let_go_sharpness = 0.31;
     double depth_order = 0;
     double learns_offsets = 1;
+    double tells_contrast = 1;
     double gradient_position_gain = 0.03;
     double gradient_angle_gain_rad_px2 = 5e-5;
     double gradient_scale_gain_1_px = 1e-4;

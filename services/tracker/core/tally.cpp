@@ -15,6 +15,22 @@ double Going::across_px_s(const Outline::Part& part, const Eigen::Vector2d& arm_
     return std::abs(along.x() * speed.y() - along.y() * speed.x());
 }
 
+double Going::visible_share(const Outline& outline, double radius_px) const {
+    // Also a part that moves along itself makes some events.
+    constexpr double sideways_share = 0.1;
+    const double speed_px_s =
+        std::hypot(velocity.vx_px_s, velocity.vy_px_s, velocity.omega_rad_s * radius_px) + 1e-9;
+    double seen = 0;
+    double whole = 0;
+    for (const Outline::Part& part : outline.parts()) {
+        const double shows = across_px_s(part, a * part.middle_px) / speed_px_s +
+                             sideways_share * (a * part.along_px).norm();
+        whole += shows;
+        if (!part.is_hidden) seen += shows;
+    }
+    return whole > 0 ? seen / whole : 1;
+}
+
 void Tally::begin(std::int64_t t_us) {
     over_s_ = t_us_ < 0 ? 0 : static_cast<double>(t_us - t_us_) * 1e-6;
     t_us_ = t_us;

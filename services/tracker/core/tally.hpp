@@ -18,6 +18,9 @@ struct Going {
     /// events.
     [[nodiscard]] double across_px_s(const Outline::Part& part,
                                      const Eigen::Vector2d& arm_px) const;
+    /// How much of what the motion shows of the outline is not hidden, 0 … 1; radius_px: of the
+    /// shape, image.
+    [[nodiscard]] double visible_share(const Outline& outline, double radius_px) const;
 };
 
 /// How many events an object's motion makes: ρ, of contour length times the way across it, learnt

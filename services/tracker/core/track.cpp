@@ -10,9 +10,6 @@
 namespace pursuit::tracker {
 namespace {
 
-// How often a good pose is kept for coasting.
-constexpr std::int64_t keep_every_us = 30'000;
-
 // How often the acquisition begins again at the coasted pose.
 constexpr std::int64_t acquisition_us = 150'000;
 
@@ -22,12 +19,8 @@ constexpr std::int64_t trial_us = 80'000;
 constexpr std::int64_t unaided_us = 30'000;
 constexpr double trial_gate_px = 6;
 
-// So many events that should have come and have not: it was silent, all at once.
-constexpr double silent_events = 30;
-constexpr std::int64_t silent_us = 3'000;
-constexpr double unseen_way_px = 5;    // and may have gone so far meanwhile
-constexpr double silent_way_px = 2.5;  // unless it has gone farther
-constexpr std::int64_t pause_us = 500;
+// What is silent may have gone so far meanwhile.
+constexpr double unseen_way_px = 5;
 constexpr double checked_share = 0.7;
 constexpr int start_confirmations = 3;
 constexpr int found_confirmations = 2;
@@ -78,7 +71,7 @@ void Track::replace(const RegisteredObject& object) {
     estimator_->restart(constrained(last.pose, transform_), last.velocity);
     hidden_way_.constrain(transform_);
     if (is_acquiring_) acquisition_->begin(constrained(last.pose, transform_));
-    for (Coast& good : good_) good.pose = constrained(good.pose, transform_);
+    good_.constrain(transform_);
 }
 
 void Track::set_parameters(const ObjectParameters& parameters, const TrackerParameters& tracker) {
@@ -91,64 +84,58 @@ void Track::set_parameters(const ObjectParameters& parameters, const TrackerPara
 
 void Track::restart(const RegisteredObject& object) {
     make_for(object);
-    is_searching_ = object.start.search;
-    is_acquiring_ = false;
-    is_covered_ = is_adrift_ = false;
+    start_ = object.start;
+    begin();
+}
+
+void Track::begin() {
+    is_searching_ = start_.search;
+    is_fresh_ = true;
+    is_acquiring_ = is_covered_ = is_adrift_ = has_moved_ = false;
+    silence_.restart();
     emerges_ = false;
     emerged_us_ = emerged_at_us_ = -1;
     acquired_us_ = doubted_us_ = never_us;
     trial_until_us_ = -1;
     visible_share_ = 1;
+    vanishing_.restart();
     find_what_to_watch();
+    outline_.clear();
+    outline_.show_all();
     tally_.restart();
     hidden_way_.restart();
-    is_fresh_ = true;
-    heard_us_ = -1;
-    is_silent_ = false;
     begin_doubt(0, start_confirmations, 0);
     grip_.restart();
-    estimator_->restart(object.start.pose, object.start.velocity);
-    for (Coast& good : good_) good = {-1, object.start.pose, object.start.velocity};
+    estimator_->restart(start_.pose, start_.velocity);
+    good_.begin_at(start_.pose, start_.velocity);
 }
 
 void Track::begin_stream() {
+    // A start that no event has moved yet was given for the stream that begins.
+    if (is_searching_ || is_fresh_) {
+        begin();
+        return;
+    }
     vanishing_.restart();
-    heard_us_ = -1;
-    is_silent_ = false;
-    trial_until_us_ = -1;
+    silence_.restart();
+    has_moved_ = false;
     emerges_ = false;
     emerged_us_ = emerged_at_us_ = -1;
     if (doubt_.is_open()) begin_doubt(0, start_confirmations, 0);
-    // What was tried was seen in the stream before.
-    if (is_searching_) is_acquiring_ = false;
-    // A start pose that no event has moved yet was given for the stream that begins.
-    if (is_searching_ || is_fresh_) return;
+    outline_.clear();
     tally_.begin_stream();
     acquired_us_ = doubted_us_ = never_us;
     // How long the sensor was away is not known: the last good pose, at rest.
     const Pose last = is_covered_     ? hidden_way_.last().pose
-                      : is_acquiring_ ? good_[1].pose
+                      : is_acquiring_ ? good_.before().pose
                                       : estimator_->pose();
     is_covered_ = false;
     hidden_way_.restart();
-    for (Coast& good : good_) good = {0, last, {}};
+    good_.set({0, last, {}});
     last_event_t_us_ = 0;
     lose_grip(0);
     is_adrift_ = true;
     adrift_since_us_ = -1;
-}
-
-void Track::remember_good(std::int64_t t_us) {
-    PoseRecord now;
-    estimator_->describe(t_us, now);
-    // What is less than its own uncertainty is none: an object that stands does not coast off.
-    Velocity& v = now.velocity;
-    const auto& of_v = now.velocity_covariance;
-    if (v.vx_px_s * v.vx_px_s + v.vy_px_s * v.vy_px_s < of_v[0] + of_v[3])
-        v.vx_px_s = v.vy_px_s = 0;
-    if (v.omega_rad_s * v.omega_rad_s < of_v[5]) v.omega_rad_s = 0;
-    good_[1] = good_[0].t_us < 0 ? Coast{t_us, now.pose, now.velocity} : good_[0];
-    good_[0] = {t_us, now.pose, now.velocity};
 }
 
 void Track::lose_grip(std::int64_t t_us) {
@@ -156,7 +143,7 @@ void Track::lose_grip(std::int64_t t_us) {
     does_not_fit_ = false;
     grip_.forgive();
     grip_lost_us_ = t_us;
-    if (good_[1].t_us < 0) good_[1].t_us = t_us;
+    good_.coast_from(t_us);
     acquisition_began_us_ = t_us;
     trial_until_us_ = -1;
     acquisition_->begin(coasted(t_us));
@@ -175,9 +162,13 @@ void Track::weigh(std::int64_t t_us) {
     }
     if (health.is_settled() && health.is_fair()) emerged_us_ = -1;
     if (doubt_.is_open() && estimator_->stands_out()) doubt_.settle();
-    const bool is_old = good_[0].t_us < 0 || t_us - good_[0].t_us >= keep_every_us;
     const bool is_good = health.is_fair() && !health.is_quiet() && !grip_.is_against();
-    if (has_moved_ && is_old && is_good && !doubt_.is_open()) remember_good(t_us);
+    if (has_moved_ && good_.is_due(t_us) && is_good && !doubt_.is_open()) {
+        PoseRecord now;
+        now.t_us = t_us;
+        estimator_->describe(t_us, now);
+        good_.add(now);
+    }
     has_moved_ = false;
 }
 
@@ -192,13 +183,14 @@ void Track::acquire(std::int64_t t_us) {
     emerged_us_ = -1;
     grip_.restart(Health::good);
     estimator_->restart(acquisition_->pose(), acquisition_->velocity());
-    for (Coast& good : good_) good = {t_us, acquisition_->pose(), acquisition_->velocity()};
-    heard_us_ = t_us;
-    is_silent_ = false;
+    good_.set({t_us, acquisition_->pose(), acquisition_->velocity()});
+    silence_.hear(t_us);
     begin_doubt(t_us, found_confirmations, t_us);
 }
 
-Pose Track::coasted(std::int64_t t_us) const { return good_[1].at(t_us, tracker_.coast_s).pose; }
+Pose Track::coasted(std::int64_t t_us) const {
+    return good_.before().at(t_us, tracker_.coast_s).pose;
+}
 
 std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) const {
     if (t_us < trial_until_us_) return std::nullopt;
@@ -211,7 +203,7 @@ std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) c
     }
     if (is_searching_) return range_of_image(estimator_->pose(), geometry, has_fixed_scale());
     if (t_us - grip_lost_us_ < unaided_us) return std::nullopt;
-    const Coast& good = good_[1];
+    const Coast& good = good_.before();
     if (is_adrift_) {
         const double adrift_s = adrift_since_us_ < 0 ? 0 : seconds(t_us - adrift_since_us_);
         return range_adrift(good.pose, adrift_s, geometry, has_fixed_scale());
@@ -238,7 +230,7 @@ void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocit
     } else {
         estimator_->restart(moved, velocity);
     }
-    for (Coast& good : good_) good = {t_us, moved, velocity};
+    good_.set({t_us, moved, velocity});
     vanishing_.restart();
     // What came before the move is of the same object.
     begin_doubt(t_us, found_confirmations, doubt_.since_us());
@@ -249,18 +241,10 @@ void Track::begin_doubt(std::int64_t t_us, int confirmations, std::int64_t since
     if (tracker_.checks_pose >= 0.5) doubt_.begin(t_us, confirmations, since_us, before);
 }
 
-// Fewer events than it makes: none at all where many should have come.
-bool Track::is_silent(std::int64_t t_us) const {
-    const std::int64_t silence_us = t_us - heard_us_;
-    return heard_us_ >= 0 && seconds(silence_us) * grip_.health().usual_rate_hz() > silent_events;
-}
-
-void Track::hear(std::int64_t t_us) {
-    if (emerged_us_ >= 0 || is_silent_ || !is_silent(t_us)) return;
-    const std::int64_t silence_us = t_us - heard_us_;
-    if (silence_us < silent_us && seconds(silence_us) * speed_px_s() < silent_way_px) return;
-    is_silent_ = true;
-    const Coast before{heard_us_, estimator_->pose(), estimator_->velocity()};
+void Track::listen(std::int64_t t_us) {
+    if (emerged_us_ >= 0) return;
+    if (!silence_.begins(t_us, grip_.health().usual_rate_hz(), speed_px_s())) return;
+    const Coast before{silence_.heard_us(), estimator_->pose(), estimator_->velocity()};
     begin_doubt(t_us, found_confirmations, t_us, before);
 }
 
@@ -272,7 +256,7 @@ Pose Track::pose() const {
 void Track::reach_time(std::int64_t t_us) {
     if (adrift_since_us_ < 0) adrift_since_us_ = t_us;
     if (is_covered_) return;
-    if (!is_acquiring_ && grip_.is_counting()) weigh(heard_us_);
+    if (!is_acquiring_ && grip_.is_counting()) weigh(silence_.heard_us());
     if (!is_acquiring_) {
         grip_.look_around(t_us, outline_, estimator_->pose(), estimator_->velocity());
     }
@@ -285,7 +269,7 @@ void Track::reach_time(std::int64_t t_us) {
     if (emerged_us_ >= 0 && seconds(t_us - emerged_us_) > tracker_.coast_s) give_up(t_us);
     if (t_us < trial_until_us_) return;
     if (is_searching_) is_acquiring_ = false;
-    if (!is_acquiring_ && !is_searching_) hear(t_us);
+    if (!is_acquiring_ && !is_searching_) listen(t_us);
     const bool is_coasting = seconds(t_us - grip_lost_us_) < tracker_.coast_s;
     if (is_acquiring_ && is_coasting && t_us - acquisition_began_us_ > acquisition_us) {
         acquisition_began_us_ = t_us;
@@ -328,9 +312,7 @@ bool Track::take(const Event& event, double weight) {
         if (acquisition_->is_done()) acquire(event.t_us);
     } else {
         // After a pause the next one says by itself whether it is quiet.
-        const bool was_pause = event.t_us - heard_us_ > pause_us;
-        heard_us_ = event.t_us;
-        is_silent_ = false;
+        const bool was_pause = silence_.hear(event.t_us);
         const bool is_sharp = distance_px_ < sharp_px_;
         grip_.count(is_sharp);
         if (was_pause || grip_.is_due()) {
@@ -394,18 +376,7 @@ void Track::tally(std::int64_t t_us, bool at_once) {
 }
 
 void Track::see(std::int64_t t_us) {
-    double seen = 0;
-    double whole = 0;
-    const Going now = going();
-    const Velocity& v = now.velocity;
-    const double speed_px_s = std::hypot(v.vx_px_s, v.vy_px_s, v.omega_rad_s * radius_px()) + 1e-9;
-    for (const Outline::Part& part : outline_.parts()) {
-        const double shows = now.across_px_s(part, now.a * part.middle_px) / speed_px_s +
-                             0.1 * (now.a * part.along_px).norm();
-        whole += shows;
-        if (!part.is_hidden) seen += shows;
-    }
-    visible_share_ = whole > 0 ? seen / whole : 1;
+    visible_share_ = going().visible_share(outline_, radius_px());
     find_what_to_watch();
     estimator_->set_visible_share(std::max(visible_share_, covered_share));
     // Held by little of its contour it may have slid along what was seen of it.
@@ -432,14 +403,14 @@ void Track::cover(std::int64_t t_us) {
 void Track::give_up(std::int64_t t_us) {
     is_covered_ = false;
     emerged_us_ = -1;
-    good_[0] = good_[1] = hidden_way_.last();
+    good_.set(hidden_way_.last());
     const std::int64_t covered_since_us = grip_lost_us_;
     lose_grip(t_us);
     grip_lost_us_ = covered_since_us;
 }
 
 void Track::show_all(std::int64_t t_us) {
-    for (Outline::Part& part : outline_.parts()) part.is_hidden = false;
+    outline_.show_all();
     if (is_partly_hidden()) see(t_us);
 }
 
@@ -453,7 +424,7 @@ void Track::uncover(std::int64_t t_us) {
     emerges_ = true;
     emerged_at_us_ = t_us;
     estimator_->resume(t_us, gone.pose, gone.velocity, way_px);
-    for (Coast& good : good_) good = {t_us, gone.pose, gone.velocity};
+    good_.set({t_us, gone.pose, gone.velocity});
 }
 
 TrackState Track::state_at(std::int64_t t_us) const {
@@ -478,8 +449,8 @@ double Track::confidence_at(std::int64_t t_us) const {
     // silent may have gone on meanwhile.
     const bool is_doubted =
         t_us - std::max(acquired_us_, doubted_us_) < believed_after_us || doubt_.is_open();
-    const double unseen_px = seconds(t_us - heard_us_) * speed_px_s();
-    const bool may_be_gone = is_silent(t_us) && unseen_px > unseen_way_px;
+    const bool may_be_gone = silence_.is_silent(t_us, grip_.health().usual_rate_hz()) &&
+                             silence_.lasts_s(t_us) * speed_px_s() > unseen_way_px;
     return is_doubted || may_be_gone ? std::min(believed, 0.5) : believed;
 }
 
@@ -494,7 +465,7 @@ PoseRecord Track::record(std::int64_t t_us) const {
     estimator_->describe(t_us, record);
     if (is_acquiring_ && !is_searching_) {
         record.pose = coasted(t_us);
-        record.velocity = good_[1].velocity;
+        record.velocity = good_.before().velocity;
     }
     if (is_covered_) {
         record.pose = hidden_way_.pose_at(t_us);
@@ -516,10 +487,12 @@ TrackSnapshot Track::snapshot() const {
     snapshot.object_id = object_id_;
     snapshot.state = state_at(last_event_t_us_);
     snapshot.was_tracked = !is_searching_ && events_used_ > 0;
-    snapshot.t_us = is_acquiring_ ? good_[1].t_us : last_event_t_us_;
+    snapshot.t_us = is_acquiring_ ? good_.before().t_us : last_event_t_us_;
     PoseRecord last;
     estimator_->describe(last_event_t_us_, last);
-    const Coast* coast = is_covered_ ? &hidden_way_.last() : is_acquiring_ ? &good_[1] : nullptr;
+    const Coast* coast = is_covered_     ? &hidden_way_.last()
+                         : is_acquiring_ ? &good_.before()
+                                         : nullptr;
     snapshot.pose = coast ? coast->pose : last.pose;
     snapshot.velocity = coast ? coast->velocity : last.velocity;
     return snapshot;

@@ -9,6 +9,7 @@
 #include "services/tracker/core/acquisition.hpp"
 #include "services/tracker/core/doubt.hpp"
 #include "services/tracker/core/estimator.hpp"
+#include "services/tracker/core/good_poses.hpp"
 #include "services/tracker/core/grip.hpp"
 #include "services/tracker/core/hidden_way.hpp"
 #include "services/tracker/core/outline.hpp"
@@ -16,6 +17,7 @@
 #include "services/tracker/core/reach_map.hpp"
 #include "services/tracker/core/registration.hpp"
 #include "services/tracker/core/shape_search.hpp"
+#include "services/tracker/core/silence.hpp"
 #include "services/tracker/core/silhouette.hpp"
 #include "services/tracker/core/tally.hpp"
 #include "services/tracker/core/vanishing.hpp"
@@ -122,12 +124,12 @@ class Track {
 
  private:
     void make_for(const RegisteredObject& object);
-    void remember_good(std::int64_t t_us);
+    /// At the start, and nothing is known of how it goes.
+    void begin();
     void begin_doubt(std::int64_t t_us, int confirmations, std::int64_t since_us,
                      const std::optional<Coast>& before = std::nullopt);
-    [[nodiscard]] bool is_silent(std::int64_t t_us) const;
-    /// Notes that the object has fallen silent.
-    void hear(std::int64_t t_us);
+    /// Whether the object has fallen silent.
+    void listen(std::int64_t t_us);
     /// Of its contour, in the mean.
     [[nodiscard]] double speed_px_s() const;
     /// What the events counted since the last time, until t_us, say about the pose.
@@ -153,9 +155,12 @@ class Track {
     TransformKind transform_ = TransformKind::isometry;
     ObjectParameters parameters_;
     TrackerParameters tracker_;
+    Start start_;
     std::unique_ptr<Estimator> estimator_;
     std::unique_ptr<Acquisition> acquisition_;
     Grip grip_;
+    Silence silence_;
+    GoodPoses good_;
     Doubt doubt_;
     Contour contour_;
     Outline outline_;
@@ -175,7 +180,6 @@ class Track {
     bool is_fresh_ = true;       // since the restart no event was taken
     bool has_moved_ = false;     // by an event since the last weigh()
     bool does_not_fit_ = false;  // the grip was lost to events of something else
-    Coast good_[2];  // the last, and the one before: older than what made the events mismatch
     std::int64_t grip_lost_us_ = 0;
     std::int64_t acquisition_began_us_ = 0;
     std::int64_t trial_until_us_ = -1;  // of an offered pose
@@ -186,8 +190,6 @@ class Track {
     std::int64_t emerged_at_us_ = -1;  // the last time
     double distance_px_ = 0;
     std::int64_t last_event_t_us_ = 0;
-    std::int64_t heard_us_ = -1;  // the last event that was thought to be its own
-    bool is_silent_ = false;
     std::uint64_t events_used_ = 0;
 };
 

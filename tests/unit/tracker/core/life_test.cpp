@@ -205,6 +205,34 @@ TEST(Life, of_an_object_that_is_searched_begins_anew_with_a_stream_wherever_the_
     }
 }
 
+TEST(Life, of_an_object_that_no_event_has_moved_begins_with_a_new_stream_as_with_its_first) {
+    const auto stream = outline_events(arrow(), swinging, 0, 400'000, 60, 1500, small_sensor, 1);
+    Tracker fresh = that_follows_an_arrow(swinging(0));
+    Poses at_first;
+    fresh.process(stream, at_first);
+
+    Tracker tracker = that_follows_an_arrow(swinging(0));
+    // A minute late, and only beside the object.
+    const auto x = static_cast<std::uint16_t>(std::lround(swinging(0).t_px.x()));
+    const auto y = static_cast<std::uint16_t>(std::lround(swinging(0).t_px.y()) + 26);
+    std::vector<Event> beside;
+    for (std::int64_t i = 0; i < 1000; ++i) beside.push_back({60'000'000 + 100 * i, x, y, 1});
+    Poses before;
+    tracker.process(beside, before);
+    ASSERT_EQ(last(before).events_used, 0U);
+    tracker.begin_stream(small_sensor, 1);
+    Poses again;
+    tracker.process(stream, again);
+    ASSERT_EQ(again.rows.size(), at_first.rows.size());
+    for (std::size_t i = 0; i < again.rows.size(); ++i) {
+        const PoseRecord& l = again.rows[i].record;
+        const PoseRecord& r = at_first.rows[i].record;
+        ASSERT_EQ(l.pose.t_px, r.pose.t_px) << i;
+        ASSERT_EQ(l.pose.a, r.pose.a) << i;
+        ASSERT_EQ(l.confidence, r.confidence) << i;
+    }
+}
+
 TEST(Health, tells_events_on_the_contour_from_events_anywhere) {
     std::mt19937 random(1);
     Health on_it;

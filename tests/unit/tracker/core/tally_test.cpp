@@ -38,5 +38,19 @@ TEST(Tally, learns_how_many_events_a_way_makes) {
                 1e-6);
 }
 
+TEST(Going, shows_by_how_much_what_is_not_hidden_moves_across_itself) {
+    // A square of four sides that goes right: its upright sides show, and a little of the others.
+    Outline outline{Contour(test::polygon("square", {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}))};
+    const Going right{Eigen::Matrix2d::Identity(), {100, 0, 0, 0, 0}};
+    EXPECT_DOUBLE_EQ(right.visible_share(outline, 7), 1);
+    ASSERT_EQ(outline.parts().size() % 4, 0U);
+    for (Outline::Part& part : outline.parts()) part.is_hidden = part.middle_px.x() > 4.9;
+    EXPECT_NEAR(right.visible_share(outline, 7), (1.1 + 0.1 + 0.1) / 2.4, 1e-6);
+    for (Outline::Part& part : outline.parts()) part.is_hidden = true;
+    EXPECT_EQ(right.visible_share(outline, 7), 0);
+    outline.show_all();
+    EXPECT_DOUBLE_EQ(right.visible_share(outline, 7), 1);
+}
+
 }  // namespace
 }  // namespace pursuit::tracker
