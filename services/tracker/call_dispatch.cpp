@@ -140,6 +140,7 @@ CallAnswer dispatch(Tracker& tracker, const v1::TrackerCall& call,
 CallResult<Tracker> trial_of(const Tracker& tracker) {
     TrackerOptions options = tracker.options();
     options.next_object_id = tracker.next_object_id();
+    options.only_checks = true;
     auto made = Tracker::create(options);
     if (!made) return made;
     const Settings settings = tracker.settings();

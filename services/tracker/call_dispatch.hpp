@@ -34,7 +34,7 @@ CallAnswer refusal(v1::StatusCode code, const std::string& message,
 /// network sent is answered. Not for TRACKER_GET_STATUS, which is not the tracker's to answer.
 CallAnswer dispatch(Tracker& tracker, const v1::TrackerCall& call, const ServiceIdentity& identity);
 
-/// A tracker of the same options, objects and settings that has seen no event: to try calls on.
+/// A tracker of the same options, objects and settings that follows nothing: to try calls on.
 /// Costs about a copy of the models.
 CallResult<Tracker> trial_of(const Tracker& tracker);
 

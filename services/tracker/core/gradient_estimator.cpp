@@ -17,7 +17,7 @@ GradientEstimator::GradientEstimator(TransformKind transform, const Contour& con
 void GradientEstimator::restart(const Pose& pose, const Velocity&) {
     pose_ = pose;
     measure_extent();
-    is_laid_out_ = false;
+    lay_out();
     slope_.restart();
     turned_rad_ = 0;
     last_theta_rad_ = theta_rad(pose.a);

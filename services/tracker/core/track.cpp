@@ -46,7 +46,9 @@ double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 }  // namespace
 
 Track::Track(const RegisteredObject& object, const TrackerParameters& tracker) : tracker_(tracker) {
-    restart(object);
+    make_for(object);
+    start_ = object.start;
+    begin();
 }
 
 void Track::make_for(const RegisteredObject& object) {
@@ -83,7 +85,7 @@ void Track::set_parameters(const ObjectParameters& parameters, const TrackerPara
 }
 
 void Track::restart(const RegisteredObject& object) {
-    make_for(object);
+    if (events_used_ > 0) make_for(object);
     start_ = object.start;
     begin();
 }

@@ -49,7 +49,7 @@ class Track {
     void replace(const RegisteredObject& object);
     /// Takes new parameters; everything goes on.
     void set_parameters(const ObjectParameters& parameters, const TrackerParameters& tracker);
-    /// Begins anew at the start.
+    /// Begins anew at the start, and has learnt nothing.
     void restart(const RegisteredObject& object);
     /// Event time begins anew; the pose is looked for around the last.
     void begin_stream();

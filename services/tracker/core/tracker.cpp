@@ -20,6 +20,9 @@ namespace {
 // Beyond it microseconds are no longer whole in a double; 285 years.
 constexpr std::int64_t max_t_us = std::int64_t{1} << 53;
 
+// Calls that wait for the next event, in a silence; more are refused.
+constexpr std::size_t most_held_changes = 1024;
+
 constexpr std::int64_t round_us = 500;
 
 // Where a track is, is noted in the map after so many of its events; ReachMap::place() has room for
@@ -56,9 +59,25 @@ class Tracker::Impl {
 
     [[nodiscard]] std::int64_t effective_time_us() const { return last_t_us + 1; }
 
+    [[nodiscard]] CallResult<void> has_room() const {
+        if (changes.size() < most_held_changes) return {};
+        return refuse(CallStatus::limit_exceeded,
+                      std::to_string(most_held_changes) + " calls wait for the next event");
+    }
+
+    // Before the first event of a stream nothing is to be done first, and there is time.
     void hold(std::function<void()> change) {
+        if (options.only_checks) return;
         changes.push_back({effective_time_us(), std::move(change)});
         wake_us = 0;
+        if (last_t_us < 0) apply_changes();
+    }
+
+    void apply_changes() {
+        for (Change& change : changes) change.apply();
+        changes.clear();
+        occlusion.restart();
+        restart_round();
     }
 
     // `now_us` begins: what was called for before it takes effect, in turn with the poses due.
@@ -227,9 +246,7 @@ Tracker::~Tracker() = default;
 
 void Tracker::begin_stream(Geometry geometry, std::uint64_t stream_id) {
     // Nothing of the former stream comes any more.
-    for (Impl::Change& change : impl_->changes) change.apply();
-    impl_->occlusion.restart();
-    impl_->changes.clear();
+    impl_->apply_changes();
     impl_->geometry = geometry;
     impl_->stream_id = stream_id;
     impl_->last_t_us = -1;
@@ -266,6 +283,7 @@ std::int64_t Tracker::last_t_us() const { return impl_->last_t_us; }
 std::int64_t Tracker::effective_time_us() const { return impl_->effective_time_us(); }
 
 CallResult<Registered> Tracker::register_object(const Registration& registration) {
+    if (auto room = impl_->has_room(); !room) return tl::unexpected(room.error());
     auto registered = impl_->registry.add(registration, effective_time_us());
     if (!registered || registered->already_registered) return registered;
     impl_->hold([impl = impl_.get(), object = *impl_->registry.find(registered->object_id),
@@ -279,6 +297,7 @@ CallResult<Registered> Tracker::register_object(const Registration& registration
 }
 
 CallResult<void> Tracker::update_object(const ObjectUpdate& update) {
+    if (auto room = impl_->has_room(); !room) return tl::unexpected(room.error());
     auto replaced = impl_->registry.replace(update, effective_time_us());
     if (!replaced) return tl::unexpected(replaced.error());
     impl_->hold([impl = impl_.get(), object = **replaced] {
@@ -288,6 +307,7 @@ CallResult<void> Tracker::update_object(const ObjectUpdate& update) {
 }
 
 CallResult<void> Tracker::remove_object(std::string_view name) {
+    if (auto room = impl_->has_room(); !room) return tl::unexpected(room.error());
     auto removed = impl_->registry.remove(name);
     if (!removed) return tl::unexpected(removed.error());
     impl_->hold([impl = impl_.get(), object_id = *removed] {
@@ -299,6 +319,7 @@ CallResult<void> Tracker::remove_object(std::string_view name) {
 }
 
 CallResult<void> Tracker::set_pose(std::string_view name, const Start& start) {
+    if (auto room = impl_->has_room(); !room) return tl::unexpected(room.error());
     auto changed = impl_->registry.set_start(name, start, effective_time_us());
     if (!changed) return tl::unexpected(changed.error());
     impl_->hold([impl = impl_.get(), object = **changed] {
@@ -309,6 +330,7 @@ CallResult<void> Tracker::set_pose(std::string_view name, const Start& start) {
 }
 
 CallResult<void> Tracker::set_strategy(StrategyKind kind, std::span<const NamedValue> parameters) {
+    if (auto room = impl_->has_room(); !room) return tl::unexpected(room.error());
     auto changed = impl_->registry.set_strategy(kind, parameters, effective_time_us());
     if (!changed) return changed;
     impl_->hold([impl = impl_.get(), settings = impl_->registry.settings()] {
@@ -319,6 +341,7 @@ CallResult<void> Tracker::set_strategy(StrategyKind kind, std::span<const NamedV
 
 CallResult<void> Tracker::set_parameters(std::string_view name,
                                          std::span<const NamedValue> parameters) {
+    if (auto room = impl_->has_room(); !room) return tl::unexpected(room.error());
     auto changed = impl_->registry.set_parameters(name, parameters, effective_time_us());
     if (!changed) return changed;
     impl_->hold([impl = impl_.get(), objects = impl_->registry.objects(),

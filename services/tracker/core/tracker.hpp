@@ -22,6 +22,7 @@ struct TrackerOptions {
     std::string preset = "default";    ///< The constants to begin with.
     bool emit_updates = false;         ///< Hand every step to PoseSink::update().
     std::uint32_t next_object_id = 1;  ///< Ids below it are never chosen (they were used before).
+    bool only_checks = false;          ///< Answers calls, and follows nothing.
 };
 
 /// Running totals since construction. events_in = events_used + events_unused + the dropped ones.
@@ -31,7 +32,7 @@ struct TrackerCounters {
     std::uint64_t events_unused = 0;              ///< Near no object, or refused by all.
     std::uint64_t dropped_outside_geometry = 0;   ///< Pixel beyond the stream's width or height.
     std::uint64_t dropped_time_went_back = 0;     ///< Earlier than an event or advance() before it.
-    std::uint64_t dropped_time_out_of_range = 0;  ///< Below 0 or beyond 2^62 µs.
+    std::uint64_t dropped_time_out_of_range = 0;  ///< Below 0, or 2^53 µs and beyond.
     std::uint64_t poses_emitted = 0;
     std::uint64_t poses_thinned = 0;  ///< Left out to keep max_poses_per_s.
 };

@@ -205,6 +205,17 @@ TEST(Life, of_an_object_that_is_searched_begins_anew_with_a_stream_wherever_the_
     }
 }
 
+void expect_same_poses(const Poses& left, const Poses& right) {
+    ASSERT_EQ(left.rows.size(), right.rows.size());
+    for (std::size_t i = 0; i < left.rows.size(); ++i) {
+        const PoseRecord& l = left.rows[i].record;
+        const PoseRecord& r = right.rows[i].record;
+        ASSERT_EQ(l.pose.t_px, r.pose.t_px) << i;
+        ASSERT_EQ(l.pose.a, r.pose.a) << i;
+        ASSERT_EQ(l.confidence, r.confidence) << i;
+    }
+}
+
 TEST(Life, of_an_object_that_no_event_has_moved_begins_with_a_new_stream_as_with_its_first) {
     const auto stream = outline_events(arrow(), swinging, 0, 400'000, 60, 1500, small_sensor, 1);
     Tracker fresh = that_follows_an_arrow(swinging(0));
@@ -223,14 +234,24 @@ TEST(Life, of_an_object_that_no_event_has_moved_begins_with_a_new_stream_as_with
     tracker.begin_stream(small_sensor, 1);
     Poses again;
     tracker.process(stream, again);
-    ASSERT_EQ(again.rows.size(), at_first.rows.size());
-    for (std::size_t i = 0; i < again.rows.size(); ++i) {
-        const PoseRecord& l = again.rows[i].record;
-        const PoseRecord& r = at_first.rows[i].record;
-        ASSERT_EQ(l.pose.t_px, r.pose.t_px) << i;
-        ASSERT_EQ(l.pose.a, r.pose.a) << i;
-        ASSERT_EQ(l.confidence, r.confidence) << i;
-    }
+    expect_same_poses(again, at_first);
+}
+
+TEST(Life, after_a_pose_is_set_is_that_of_an_object_registered_there) {
+    const auto stream = outline_events(arrow(), swinging, 0, 400'000, 60, 1500, small_sensor, 1);
+    Tracker fresh = that_follows_an_arrow(swinging(0));
+    Poses at_first;
+    fresh.process(stream, at_first);
+
+    Tracker tracker = that_follows_an_arrow(swinging(0));
+    Poses before;
+    tracker.process(stream, before);
+    ASSERT_GT(last(before).events_used, 1000U);
+    ASSERT_TRUE(tracker.set_pose("arrow", {false, swinging(0), {}}));
+    tracker.begin_stream(small_sensor, 2);
+    Poses again;
+    tracker.process(stream, again);
+    expect_same_poses(again, at_first);
 }
 
 TEST(Health, tells_events_on_the_contour_from_events_anywhere) {

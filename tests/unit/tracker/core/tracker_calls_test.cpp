@@ -198,6 +198,38 @@ TEST(TrackerCalls, hold_from_the_first_time_after_the_last_processed_one) {
     EXPECT_EQ(poses.rows.size(), 2U);
 }
 
+TEST(TrackerCalls, wait_for_the_next_event_up_to_1024_and_are_refused_beyond) {
+    Tracker tracker = make_tracker();
+    Poses poses;
+    ASSERT_TRUE(tracker.register_object(at(arrow("a"), 10, 10)));
+    // Before the first event none has to wait.
+    for (int i = 0; i < 2000; ++i) {
+        ASSERT_TRUE(tracker.set_pose("a", {false, pose_of(20, 20, 0), {}})) << i;
+    }
+    tracker.process({{{1000, 100, 100, 1}}}, poses);
+    for (int i = 0; i < 1024; ++i) {
+        ASSERT_TRUE(tracker.set_pose("a", {false, pose_of(30, 20, 0), {}})) << i;
+    }
+    const Start beyond{false, pose_of(50, 50, 0), {}};
+    EXPECT_EQ(status_of(tracker.set_pose("a", beyond)), CallStatus::limit_exceeded);
+    EXPECT_EQ(status_of(tracker.remove_object("a")), CallStatus::limit_exceeded);
+    EXPECT_EQ(tracker.object("a")->start.pose.t_px.x(), 30);
+    tracker.process({{{2000, 100, 100, 1}}}, poses);
+    EXPECT_EQ(poses.rows.back().record.pose.t_px.x(), 30);
+    EXPECT_TRUE(tracker.set_pose("a", beyond));
+}
+
+TEST(TrackerCalls, of_a_tracker_that_only_checks_are_answered_alike_and_move_nothing) {
+    Tracker tracker = make_tracker({.only_checks = true});
+    Poses poses;
+    ASSERT_TRUE(tracker.register_object(at(arrow("a"), 10, 10)));
+    EXPECT_EQ(status_of(tracker.set_pose("b", {})), CallStatus::not_found);
+    EXPECT_TRUE(tracker.set_pose("a", {false, pose_of(20, 20, 0), {}}));
+    EXPECT_EQ(tracker.object("a")->start.pose.t_px.x(), 20);
+    tracker.process({{{1000, 100, 100, 1}, {9000, 100, 100, 1}}}, poses);
+    EXPECT_TRUE(poses.rows.empty());
+}
+
 TEST(TrackerCalls, drop_and_count_events_outside_the_geometry_or_back_in_time) {
     Tracker tracker = make_tracker();
     Poses poses;
