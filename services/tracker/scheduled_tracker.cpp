@@ -9,9 +9,6 @@
 namespace pursuit::tracker {
 namespace {
 
-// As the core: beyond it microseconds are no longer whole in a double.
-constexpr std::int64_t max_t_us = std::int64_t{1} << 53;
-
 /// Events that the tracker drops do not move time.
 bool is_usable(const Event& event, Geometry geometry) {
     return event.t_us < max_t_us && event.x < geometry.width && event.y < geometry.height;

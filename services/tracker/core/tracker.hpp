@@ -12,30 +12,10 @@
 #include "services/tracker/core/call_result.hpp"
 #include "services/tracker/core/pose_record.hpp"
 #include "services/tracker/core/registration.hpp"
+#include "services/tracker/core/tracker_counters.hpp"
+#include "services/tracker/core/tracker_options.hpp"
 
 namespace pursuit::tracker {
-
-struct TrackerOptions {
-    double pose_rate_hz = 1000;        ///< The event-time grid, 1 … 100,000.
-    double max_poses_per_s = 10'000;   ///< All objects together, 1 … 1e6; thinned evenly beyond.
-    std::uint32_t max_objects = 256;   ///< 1 … 256.
-    std::string preset = "default";    ///< The constants to begin with.
-    bool emit_updates = false;         ///< Hand every step to PoseSink::update().
-    std::uint32_t next_object_id = 1;  ///< Ids below it are never chosen (they were used before).
-    bool only_checks = false;          ///< Answers calls, and follows nothing.
-};
-
-/// Running totals since construction. events_in = events_used + events_unused + the dropped ones.
-struct TrackerCounters {
-    std::uint64_t events_in = 0;
-    std::uint64_t events_used = 0;                ///< By at least one object.
-    std::uint64_t events_unused = 0;              ///< Near no object, or refused by all.
-    std::uint64_t dropped_outside_geometry = 0;   ///< Pixel beyond the stream's width or height.
-    std::uint64_t dropped_time_went_back = 0;     ///< Earlier than an event or advance() before it.
-    std::uint64_t dropped_time_out_of_range = 0;  ///< Below 0, or 2^53 µs and beyond.
-    std::uint64_t poses_emitted = 0;
-    std::uint64_t poses_thinned = 0;  ///< Left out to keep max_poses_per_s.
-};
 
 /// Follows known shapes in one stream of events.
 ///
@@ -46,15 +26,15 @@ struct TrackerCounters {
 ///
 /// Time is the events' alone, and the same events and calls give the same records bit for bit:
 ///  - Poses lie on the grid k·1e6/pose_rate_hz µs. A record is the state after the last event
-///  before
-///    its grid time, handed over as soon as an event at or after it, or advance() to it, comes. How
-///    the events are cut into process() calls, and advance() calls in silence, change nothing.
+///    before its grid time, handed over as soon as an event at or after it, or advance() to it,
+///    comes. How the events are cut into process() calls, and advance() calls in silence, change
+///    nothing.
 ///  - A call is answered at once and holds for events (and grid times) from effective_time_us() on,
 ///    that is, after the last time processed. The getters show it at once.
+///    In a silence 1024 calls wait; more are refused, and identical ones with them.
 ///  - Before the first event of a stream there are no records. Where no event at all comes, the
-///  grid
-///    is kept for 1 s, then thinned to 10 Hz up to 60 s, then to 1 Hz up to an hour, and then there
-///    are none until an event comes: a jump in time makes at most 5200 records an object.
+///    grid is kept for 1 s, then thinned to 10 Hz up to 60 s, then to 1 Hz up to an hour, and then
+///    there are none until an event comes: a jump in time makes at most 5200 records an object.
 ///  - Beyond max_poses_per_s every object keeps an even share of the grid; the rest is counted.
 ///
 /// No allocation and no clock call per event. One thread at a time; calls never block.

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/event_loop.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "services/tracker/core/parameters.hpp"
+
+namespace pursuit::tracker {
+namespace {
+
+constexpr std::int64_t round_us = 500;
+
+// Where a track is, is noted in the map after so many of its events; ReachMap::place() has room for
+// what they move it.
+constexpr std::uint64_t placed_every_events = 8;
+
+// How far ahead of the event in hand the pixels of those to come are fetched from memory.
+constexpr std::size_t prefetched = 16;
+
+}  // namespace
+
+EventLoop::EventLoop(const TrackerOptions& options, const Preset& preset)
+    : emits_updates_(options.emit_updates),
+      grid_(options.pose_rate_hz, options.max_poses_per_s),
+      arbiter_(options.max_objects, preset.strategy, preset.strategy_parameters),
+      tells_occlusion_(preset.tracker.tells_occlusion >= 0.5) {}
+
+void EventLoop::begin_stream(Geometry geometry, std::uint64_t stream_id) {
+    // Nothing of the former stream comes any more.
+    apply_changes();
+    geometry_ = geometry;
+    stream_id_ = stream_id;
+    last_t_us_ = -1;
+    grid_.restart();
+    recent_.restart(geometry);
+    seeker_.restart(geometry);
+    arbiter_.restart();
+    for (Track& track : tracks_) track.begin_stream();
+    restart_round();
+}
+
+void EventLoop::advance(std::int64_t t_us, PoseSink& sink) {
+    if (t_us <= last_t_us_ || t_us >= max_t_us) return;
+    reach(t_us, sink);
+    last_t_us_ = t_us;
+}
+
+void EventLoop::hold(Change change) {
+    changes_.push_back({effective_time_us(), std::move(change)});
+    wake_us_ = 0;
+    if (last_t_us_ < 0) apply_changes();
+}
+
+void EventLoop::apply_changes() {
+    for (HeldChange& change : changes_) change.apply(*this);
+    changes_.clear();
+    occlusion_.restart();
+    restart_round();
+}
+
+void EventLoop::add(const RegisteredObject& object, const TrackerParameters& tracker) {
+    const auto place = std::find_if(tracks_.begin(), tracks_.end(), [&](const Track& track) {
+        return track.object_id() > object.object_id;
+    });
+    tracks_.insert(place, Track(object, tracker));
+}
+
+void EventLoop::remove(std::uint32_t object_id) {
+    std::erase_if(tracks_, [&](const Track& track) { return track.object_id() == object_id; });
+    arbiter_.forget(object_id);
+}
+
+Track* EventLoop::find(std::uint32_t object_id) {
+    const auto found = std::find_if(tracks_.begin(), tracks_.end(), [&](const Track& track) {
+        return track.object_id() == object_id;
+    });
+    return found == tracks_.end() ? nullptr : &*found;
+}
+
+void EventLoop::set_tells_occlusion(bool tells) {
+    tells_occlusion_ = tells;
+    if (tells) return;
+    for (Track& track : tracks_) track.show_all(last_t_us_);
+}
+
+// `now_us` begins: what was called for before it takes effect, in turn with the poses due.
+void EventLoop::reach(std::int64_t now_us, PoseSink& sink) {
+    while (!changes_.empty() && changes_.front().effective_time_us <= now_us) {
+        emit_before(changes_.front().effective_time_us, sink);
+        changes_.front().apply(*this);
+        occlusion_.restart();
+        restart_round();
+        changes_.pop_front();
+    }
+    emit_before(now_us + 1, sink);
+}
+
+void EventLoop::emit_before(std::int64_t end_us, PoseSink& sink) {
+    for (; grid_.next_us() < end_us; grid_.step()) {
+        for (const Track& track : tracks_) {
+            if (!grid_.is_due(track.object_id(), tracks_.size())) {
+                ++counters_.poses_thinned;
+                continue;
+            }
+            PoseRecord record = track.record(grid_.next_us());
+            record.stream_id = stream_id_;
+            sink.pose(record);
+            ++counters_.poses_emitted;
+        }
+    }
+}
+
+bool EventLoop::accepts(const Event& event) {
+    if (event.t_us < 0 || event.t_us >= max_t_us) {
+        ++counters_.dropped_time_out_of_range;
+        return false;
+    }
+    if (event.t_us < last_t_us_) {
+        ++counters_.dropped_time_went_back;
+        return false;
+    }
+    if (event.x >= geometry_.width || event.y >= geometry_.height) {
+        ++counters_.dropped_outside_geometry;
+        return false;
+    }
+    return true;
+}
+
+// What is done from time to time, before the first event at or after wake_us_.
+void EventLoop::wake(std::int64_t t_us) {
+    if (tells_occlusion_ && t_us >= occlusion_.next_us()) occlusion_.look(t_us, tracks_);
+    seeker_.work(t_us, tracks_);
+    if (t_us >= next_round_us_) go_round(t_us);
+    wake_us_ = std::min({grid_.next_us(), next_round_us_, seeker_.next_us()});
+    if (tells_occlusion_) wake_us_ = std::min(wake_us_, occlusion_.next_us());
+    if (!changes_.empty()) wake_us_ = std::min(wake_us_, changes_.front().effective_time_us);
+}
+
+// The event moves the pose of this track; false where it did not. (Always inlined, as the next:
+// gcc would not, and it costs some twenty instructions an event.)
+[[gnu::always_inline]] inline bool EventLoop::step(const Event& event, std::size_t index,
+                                                   double weight, PoseSink& sink) {
+    Track& track = tracks_[index];
+    const bool is_taken = track.take(event, weight);
+    // One that lost its grip is asked about events from farther away.
+    if (!is_taken || track.events_used() % placed_every_events == 0) {
+        reach_map_.place(index, track.reach(next_round_us_));
+    }
+    if (is_taken && emits_updates_) {
+        sink.update({track.object_id(), stream_id_, event.t_us, track.pose()});
+    }
+    return is_taken;
+}
+
+// The paper's algorithm, for one event.
+[[gnu::always_inline]] inline void EventLoop::process(const Event& event, PoseSink& sink) {
+    const std::int64_t since_same_us = recent_.note(event);
+    seeker_.see(event);
+
+    // The objects it may belong to, by the nearest place of each model (3.1).
+    arbiter_.begin();
+    reach_map_.for_each(event.x, event.y, [&](std::size_t i) {
+        Track& track = tracks_[i];
+        const Approach near = track.approach(event, since_same_us);
+        if (!near.is_within()) return;
+        if (tells_occlusion_ && occlusion_.hides(i, event, tracks_)) {
+            track.deny();
+            return;
+        }
+        arbiter_.claim(i, track.object_id(), near.distance_px, near.clutter);
+    });
+    if (arbiter_.count() == 0) {
+        ++counters_.events_unused;
+        return;
+    }
+
+    // Whose it is (section 3.3), and the steps that follow from it (3.2).
+    bool is_used = false;
+    if (arbiter_.is_plain()) {
+        is_used = step(event, arbiter_.claimant(0), 1, sink);
+    } else {
+        arbiter_.give(event, [&](std::size_t i) { return tracks_[i].likelihood(); });
+        for (std::size_t i = 0; i < arbiter_.count(); ++i) {
+            if (!(arbiter_.weight(i) > 0)) continue;
+            if (!step(event, arbiter_.claimant(i), arbiter_.weight(i), sink)) continue;
+            is_used = true;
+            arbiter_.used(event, i);
+        }
+    }
+    ++(is_used ? counters_.events_used : counters_.events_unused);
+}
+
+// Every track learns what time it is, and the map where it is.
+void EventLoop::go_round(std::int64_t t_us) {
+    next_round_us_ = t_us + round_us;
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+        tracks_[i].reach_time(t_us);
+        reach_map_.place(i, tracks_[i].reach(next_round_us_));
+    }
+}
+
+void EventLoop::restart_round() {
+    reach_map_.restart(geometry_, tracks_.size());
+    next_round_us_ = 0;
+    wake_us_ = 0;
+}
+
+void EventLoop::process(std::span<const Event> events, PoseSink& sink) {
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        const Event& event = events[i];
+        if (i + prefetched < events.size()) recent_.prefetch(events[i + prefetched]);
+        ++counters_.events_in;
+        if (!accepts(event)) continue;
+        const bool is_due = event.t_us >= wake_us_;
+        if (is_due) reach(event.t_us, sink);
+        last_t_us_ = event.t_us;
+        grid_.event_at(event.t_us);
+        if (is_due) wake(event.t_us);
+        process(event, sink);
+    }
+}
+
+}  // namespace pursuit::tracker

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace pursuit::tracker {
+
+/// Event times are below it: beyond, microseconds are no longer whole in a double; 285 years.
+inline constexpr std::int64_t max_t_us = std::int64_t{1} << 53;
+
+/// What a tracker is made with.
+struct TrackerOptions {
+    double pose_rate_hz = 1000;        ///< The event-time grid, 1 … 100,000.
+    double max_poses_per_s = 10'000;   ///< All objects together, 1 … 1e6; thinned evenly beyond.
+    std::uint32_t max_objects = 256;   ///< 1 … 256.
+    std::string preset = "default";    ///< The constants to begin with.
+    bool emit_updates = false;         ///< Hand every step to PoseSink::update().
+    std::uint32_t next_object_id = 1;  ///< Ids below it are never chosen (they were used before).
+    bool only_checks = false;          ///< Answers calls, and follows nothing.
+};
+
+}  // namespace pursuit::tracker
