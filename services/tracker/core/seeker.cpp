@@ -94,7 +94,8 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
     checked_ = range.checked;
     if (is_check_ && !going_) {
         checked_ = checked_.at(t_us - static_cast<std::int64_t>(mean_age_us(t_us)), 1);
-        range.around = checked_.pose;
+        const double back_rad = theta_rad(checked_.pose.a) - theta_rad(range.checked.pose.a);
+        range.around = {checked_.pose.t_px, rotation(back_rad) * range.around.a};
         range.seeds.front() = checked_.pose;
     }
     if (going_) lead_on(t_us, *going_);

@@ -201,7 +201,7 @@ std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) c
                              !estimator_->sees_noise_alone();
         if (!is_told || !doubt_.is_due(t_us)) return std::nullopt;
         return range_of_check(t_us, {t_us, pose(), estimator_->velocity()}, doubt_,
-                              tracker_.coast_s);
+                              good_.before().pose, tracker_.coast_s);
     }
     if (is_searching_) return range_of_image(estimator_->pose(), geometry, has_fixed_scale());
     if (t_us - grip_lost_us_ < unaided_us) return std::nullopt;

@@ -33,7 +33,7 @@ double speed_px_s(const Velocity& v) { return std::hypot(v.vx_px_s, v.vy_px_s); 
 }  // namespace
 
 SearchRange range_of_check(std::int64_t t_us, const Coast& own, const Doubt& doubt,
-                           double coast_s) {
+                           const Pose& known, double coast_s) {
     SearchRange range;
     range.checked = own;
     range.around = own.pose;
@@ -57,6 +57,9 @@ SearchRange range_of_check(std::int64_t t_us, const Coast& own, const Doubt& dou
         const double gone_s = static_cast<double>(t_us - doubt.before()->t_us) * 1e-6;
         range.angle_rad += uncertain_share * gone_s * std::abs(gone.velocity.omega_rad_s);
         range.reach_px += uncertain_share * gone_s * speed_px_s(gone.velocity);
+    }
+    if (!leads_on) {
+        range.around.a = rotation(theta_rad(own.pose.a) - theta_rad(known.a)) * known.a;
     }
     return range;
 }

@@ -13,8 +13,11 @@
 namespace pursuit::tracker {
 
 /// To confirm where an object is thought to be, and how it goes: around it, and, where it fell
-/// silent, around where it may have gone since (for coast_s at most).
-SearchRange range_of_check(std::int64_t t_us, const Coast& own, const Doubt& doubt, double coast_s);
+/// silent, around where it may have gone since (for coast_s at most). `known`: the last pose that
+/// was believed before; every other check looks for a shape as large, and as drawn out, as it was
+/// there: with the wrong edges an estimator may have stretched it to what it holds on to.
+SearchRange range_of_check(std::int64_t t_us, const Coast& own, const Doubt& doubt,
+                           const Pose& known, double coast_s);
 
 /// What such a search says. `checked`: where the object was thought to be, and how much of the
 /// contour that place explains.

@@ -175,6 +175,8 @@ def main():
     parser.add_argument("--packet-us", type=int, default=1000, help="a packet's time")
     parser.add_argument("--pose-rate-hz", type=float, default=1000, help="of each object")
     options = parser.parse_args()
+    if options.step <= 1:
+        parser.error("--step: a ladder needs steps above 1")
     with tempfile.TemporaryDirectory(prefix="pursuit-bench-") as folder:
         good = getattr(Bench(folder, options), options.what)()
     raise SystemExit(0 if good else 1)

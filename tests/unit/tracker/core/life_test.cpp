@@ -254,6 +254,45 @@ TEST(Life, after_a_pose_is_set_is_that_of_an_object_registered_there) {
     expect_same_poses(again, at_first);
 }
 
+TEST(Life, of_an_affine_shape_that_began_on_the_wrong_edges_goes_on_at_its_place) {
+    // Drawn out, an H fits half of another one.
+    const Shape letter = test::polygon("H", {{-20, -28},
+                                             {-8, -28},
+                                             {-8, -6},
+                                             {8, -6},
+                                             {8, -28},
+                                             {20, -28},
+                                             {20, 28},
+                                             {8, 28},
+                                             {8, 6},
+                                             {-8, 6},
+                                             {-8, 28},
+                                             {-20, 28}});
+    const auto truth = [](double t_us) {
+        return pose_of(150 + 30 * std::sin(4e-6 * t_us), 115 + 20 * std::sin(6e-6 * t_us),
+                       1.5e-6 * t_us);
+    };
+    const auto events = outline_events(letter, truth, 0, 300'000, 300, 2, small_sensor, 5);
+    for (const double off_px : {8.0, 11.0, 14.0, 20.0}) {
+        for (int way = 0; way < 24; ++way) {
+            Tracker tracker = Tracker::create({}).value();
+            tracker.begin_stream(small_sensor, 1);
+            Registration registration;
+            registration.shape = letter;
+            registration.transform = TransformKind::full_affine;
+            registration.estimator = EstimatorKind::kalman;
+            registration.start.pose = truth(0);
+            registration.start.pose.a = rotation(way % 2 == 0 ? 0.12 : -0.12);
+            registration.start.pose.t_px +=
+                off_px * Eigen::Vector2d(std::cos(way * 0.524), std::sin(way * 0.524));
+            ASSERT_TRUE(tracker.register_object(registration));
+            Poses poses;
+            tracker.process(events, poses);
+            EXPECT_LT(rms_px(letter, last(poses).pose, truth(3e5)), 1) << off_px << ' ' << way;
+        }
+    }
+}
+
 TEST(Health, tells_events_on_the_contour_from_events_anywhere) {
     std::mt19937 random(1);
     Health on_it;

@@ -28,5 +28,21 @@ TEST(WhereToLook, is_near_a_lost_object_and_farther_about_the_faster_it_went) {
     EXPECT_LE(fast.reach_px, 80);
 }
 
+TEST(WhereToLook, is_by_turns_for_a_shape_as_drawn_out_as_it_was_when_it_was_last_believed) {
+    Eigen::Matrix2d stretched = rotation(0.9);
+    stretched.col(1) *= 1.3;
+    const Coast own{50'000, {{100, 90}, stretched}, {}};
+    const Pose known = pose_of(110, 95, 0.2, 1.1, 1.1);
+    Doubt doubt;
+    doubt.begin(0, 3, 0);
+    const SearchRange first = range_of_check(50'000, own, doubt, known, 0.5);
+    EXPECT_EQ(first.around, own.pose);
+    static_cast<void>(doubt.take(50'000, {}));
+    const SearchRange second = range_of_check(60'000, own, doubt, known, 0.5);
+    EXPECT_EQ(second.around.t_px, own.pose.t_px);
+    EXPECT_LT((second.around.a - 1.1 * rotation(0.9)).norm(), 1e-12);
+    EXPECT_EQ(second.seeds.front(), own.pose);
+}
+
 }  // namespace
 }  // namespace pursuit::tracker
