@@ -96,7 +96,7 @@ class Tracker {
     [[nodiscard]] const TrackerCounters& counters() const;
 
  private:
-    class Impl;
+    struct Impl;
     explicit Tracker(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
