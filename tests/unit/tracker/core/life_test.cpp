@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "services/tracker/core/clutter.hpp"
-#include "services/tracker/core/cover.hpp"
-#include "services/tracker/core/health.hpp"
 #include "services/tracker/core/silhouette.hpp"
 #include "services/tracker/core/tracker.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
@@ -205,11 +202,15 @@ TEST(Life, of_an_object_that_is_searched_begins_anew_with_a_stream_wherever_the_
     }
 }
 
-void expect_same_poses(const Poses& left, const Poses& right) {
-    ASSERT_EQ(left.rows.size(), right.rows.size());
-    for (std::size_t i = 0; i < left.rows.size(); ++i) {
-        const PoseRecord& l = left.rows[i].record;
-        const PoseRecord& r = right.rows[i].record;
+/// One that follows the swinging arrow from its start on.
+void expect_poses_of_a_fresh_tracker(const Poses& again, const std::vector<Event>& stream) {
+    Tracker fresh = that_follows_an_arrow(swinging(0));
+    Poses at_first;
+    fresh.process(stream, at_first);
+    ASSERT_EQ(again.rows.size(), at_first.rows.size());
+    for (std::size_t i = 0; i < again.rows.size(); ++i) {
+        const PoseRecord& l = again.rows[i].record;
+        const PoseRecord& r = at_first.rows[i].record;
         ASSERT_EQ(l.pose.t_px, r.pose.t_px) << i;
         ASSERT_EQ(l.pose.a, r.pose.a) << i;
         ASSERT_EQ(l.confidence, r.confidence) << i;
@@ -218,10 +219,6 @@ void expect_same_poses(const Poses& left, const Poses& right) {
 
 TEST(Life, of_an_object_that_no_event_has_moved_begins_with_a_new_stream_as_with_its_first) {
     const auto stream = outline_events(arrow(), swinging, 0, 400'000, 60, 1500, small_sensor, 1);
-    Tracker fresh = that_follows_an_arrow(swinging(0));
-    Poses at_first;
-    fresh.process(stream, at_first);
-
     Tracker tracker = that_follows_an_arrow(swinging(0));
     // A minute late, and only beside the object.
     const auto x = static_cast<std::uint16_t>(std::lround(swinging(0).t_px.x()));
@@ -234,15 +231,11 @@ TEST(Life, of_an_object_that_no_event_has_moved_begins_with_a_new_stream_as_with
     tracker.begin_stream(small_sensor, 1);
     Poses again;
     tracker.process(stream, again);
-    expect_same_poses(again, at_first);
+    expect_poses_of_a_fresh_tracker(again, stream);
 }
 
 TEST(Life, after_a_pose_is_set_is_that_of_an_object_registered_there) {
     const auto stream = outline_events(arrow(), swinging, 0, 400'000, 60, 1500, small_sensor, 1);
-    Tracker fresh = that_follows_an_arrow(swinging(0));
-    Poses at_first;
-    fresh.process(stream, at_first);
-
     Tracker tracker = that_follows_an_arrow(swinging(0));
     Poses before;
     tracker.process(stream, before);
@@ -251,23 +244,15 @@ TEST(Life, after_a_pose_is_set_is_that_of_an_object_registered_there) {
     tracker.begin_stream(small_sensor, 2);
     Poses again;
     tracker.process(stream, again);
-    expect_same_poses(again, at_first);
+    expect_poses_of_a_fresh_tracker(again, stream);
 }
 
 TEST(Life, of_an_affine_shape_that_began_on_the_wrong_edges_goes_on_at_its_place) {
     // Drawn out, an H fits half of another one.
-    const Shape letter = test::polygon("H", {{-20, -28},
-                                             {-8, -28},
-                                             {-8, -6},
-                                             {8, -6},
-                                             {8, -28},
-                                             {20, -28},
-                                             {20, 28},
-                                             {8, 28},
-                                             {8, 6},
-                                             {-8, 6},
-                                             {-8, 28},
-                                             {-20, 28}});
+    const std::vector<Eigen::Vector2d> corners_px{{-20, -28}, {-8, -28}, {-8, -6}, {8, -6},
+                                                  {8, -28},   {20, -28}, {20, 28}, {8, 28},
+                                                  {8, 6},     {-8, 6},   {-8, 28}, {-20, 28}};
+    const Shape letter = test::polygon("H", corners_px);
     const auto truth = [](double t_us) {
         return pose_of(150 + 30 * std::sin(4e-6 * t_us), 115 + 20 * std::sin(6e-6 * t_us),
                        1.5e-6 * t_us);
@@ -291,89 +276,6 @@ TEST(Life, of_an_affine_shape_that_began_on_the_wrong_edges_goes_on_at_its_place
             EXPECT_LT(rms_px(letter, last(poses).pose, truth(3e5)), 1) << off_px << ' ' << way;
         }
     }
-}
-
-TEST(Health, tells_events_on_the_contour_from_events_anywhere) {
-    std::mt19937 random(1);
-    Health on_it;
-    Health anywhere;
-    for (int i = 0; i < 1000; ++i) {
-        const double uniform = static_cast<double>(random()) / 4294967296.0;
-        on_it.count(1.2 * uniform < 1 ? 1 : 0, 1, i);
-        anywhere.count(4 * uniform < 1 ? 1 : 0, 1, i);
-    }
-    EXPECT_TRUE(on_it.is_settled());
-    EXPECT_TRUE(on_it.is_good());
-    EXPECT_TRUE(anywhere.is_below(ObjectParameters().let_go_sharpness));
-}
-
-TEST(Health, says_the_same_of_events_counted_together_as_one_by_one) {
-    std::mt19937 random(2);
-    Health alone;
-    Health together;
-    int sharp = 0;
-    for (int i = 1; i <= 4000; ++i) {
-        const bool is_sharp = random() % 3 != 0;
-        alone.count(is_sharp ? 1 : 0, 1, 20 * i);
-        sharp += is_sharp ? 1 : 0;
-        if (i % 8 != 0) continue;
-        together.count(sharp, 8, 20 * i);
-        sharp = 0;
-    }
-    EXPECT_NEAR(together.sharpness(), alone.sharpness(), 0.02);
-    EXPECT_NEAR(together.relative_sharpness(), alone.relative_sharpness(), 0.03);
-    EXPECT_NEAR(together.rate_hz(80'000) / alone.rate_hz(80'000), 1, 0.02);
-    EXPECT_NEAR(together.usual_rate_hz() / alone.usual_rate_hz(), 1, 0.02);
-}
-
-void expect_cover_to_tell_all_from_a_part(const Contour& contour) {
-    const Outline outline(contour);
-    Cover cover(contour);
-    const Velocity right{100, 0, 0, 0, 0};
-    const auto& pieces = contour.pieces().pieces();
-    const auto make_event = [&](std::size_t piece) {
-        cover.count(static_cast<std::int32_t>(piece));
-        if (cover.is_due()) cover.close_window(outline, {}, right);
-    };
-    // Each piece makes events by how far it moves across itself.
-    const double rounds = 6000 / contour.length_px();
-    for (int round = 0; round < 20; ++round) {
-        double due = 0;
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            due += rounds / 20 * std::abs(pieces[i].by - pieces[i].ay);
-            for (; due >= 1; due -= 1) make_event(i);
-        }
-    }
-    EXPECT_GT(cover.share(), 0.8);
-    cover.restart();
-    for (int round = 0; round < 2000; ++round) make_event(0);
-    EXPECT_LT(cover.share(), 0.3);
-}
-
-TEST(Cover, is_whole_where_all_of_a_moving_contour_makes_events) {
-    expect_cover_to_tell_all_from_a_part(Contour(arrow()));
-}
-
-TEST(Cover, does_so_for_a_contour_of_more_pieces_than_it_has_parts) {
-    expect_cover_to_tell_all_from_a_part(Contour(test::ring("ring", 30, 2000)));
-}
-
-TEST(Clutter, is_near_nothing_for_an_object_alone_and_high_in_noise) {
-    Contour contour(arrow());
-    contour.fit(Eigen::Matrix2d::Identity(), 8);
-    Clutter clutter;
-    clutter.restart();
-    clutter.sample(contour, Eigen::Matrix2d::Identity());
-    for (int i = 0; i < 3000; ++i) clutter.count_near(0, 1);
-    EXPECT_LT(clutter.density(0, 1), 0.01);
-    EXPECT_GT(clutter.own_share(), 0.95);
-    // As many beside the contour, over 2 × 3 px, as on it, over 2 × 4: most on it is clutter too.
-    for (int i = 0; i < 6000; ++i) {
-        clutter.count_near(0, 0.3);
-        clutter.count_far(0, i % 2 == 0 ? 5 : -5);
-    }
-    EXPECT_GT(clutter.density(0, 1), 0.2);
-    EXPECT_LT(clutter.own_share(), 0.3);
 }
 
 }  // namespace
