@@ -26,12 +26,12 @@ Acquisition::Acquisition(const RegisteredObject& object)
 Acquisition::Acquisition(TransformKind transform, const Contour& contour,
                          const ObjectParameters& parameters)
     : parameters_(arriving(parameters)),
-      estimator_(transform, contour, parameters_, GradientEstimator::Pull::contour),
+      estimator_(make_gradient(transform, contour, parameters_, Pull::contour)),
       outline_(contour),
       cover_(contour) {}
 
 void Acquisition::begin(const Pose& pose, double gate_px) {
-    estimator_.restart(pose, {});
+    estimator_->restart(pose, {});
     health_.restart();
     cover_.restart();
     residual_px_ = gate_px / gate_per_residual;
@@ -40,24 +40,25 @@ void Acquisition::begin(const Pose& pose, double gate_px) {
 
 void Acquisition::set_gate(double gate_px) {
     parameters_.gate_px = gate_px;
-    estimator_.set_parameters(parameters_);
+    estimator_->set_parameters(parameters_);
 }
 
-Approach Acquisition::approach(const Event& event) {
-    const Approach near = estimator_.approach(event, 0);
-    distance_px_ = near.contour_px;
-    piece_ = near.piece;
+const Approach* Acquisition::approach(const Event& event) {
+    const Approach* const near = estimator_->approach(event, 0);
+    if (near == nullptr) return nullptr;
+    distance_px_ = near->distance_px();
+    piece_ = near->piece;
     t_us_ = event.t_us;
     return near;
 }
 
 void Acquisition::take() {
-    estimator_.take(1);
+    estimator_->take(1);
     if (distance_px_ < narrowest_gate_px) {
         const bool is_sharp = distance_px_ < narrowest_gate_px / 4;
         health_.count(is_sharp ? 1 : 0, 1, t_us_);
         if (is_sharp) cover_.count(piece_);
-        if (cover_.is_due()) cover_.close_window(outline_, estimator_.pose(), velocity());
+        if (cover_.is_due()) cover_.close_window(outline_, estimator_->pose(), velocity());
     }
     residual_px_ += 0.01 * (distance_px_ - residual_px_);
     set_gate(std::clamp(gate_per_residual * residual_px_, narrowest_gate_px, widest_gate_px));

@@ -19,9 +19,9 @@ class Acquisition {
     /// From a pose that is known to a third of the gate or so.
     void begin(const Pose& pose, double gate_px);
 
-    Approach approach(const Event& event);
+    const Approach* approach(const Event& event);
     /// Of that event under the object, 1/px.
-    [[nodiscard]] double likelihood() const { return estimator_.likelihood(); }
+    [[nodiscard]] double likelihood() const { return estimator_->likelihood(); }
     /// Uses the event that approach() was asked for last.
     void take();
 
@@ -29,9 +29,9 @@ class Acquisition {
     [[nodiscard]] bool is_done() const {
         return health_.is_settled() && health_.is_good() && cover_.share() > Health::good_cover;
     }
-    [[nodiscard]] double reach_px(std::int64_t t_us) const { return estimator_.reach_px(t_us); }
-    [[nodiscard]] const Pose& pose() const { return estimator_.pose(); }
-    [[nodiscard]] Velocity velocity() const { return estimator_.velocity(); }
+    [[nodiscard]] double reach_px(std::int64_t t_us) const { return estimator_->reach_px(t_us); }
+    [[nodiscard]] const Pose& pose() const { return estimator_->pose(); }
+    [[nodiscard]] Velocity velocity() const { return estimator_->velocity(); }
 
  private:
     static constexpr double widest_gate_px = 30;
@@ -39,7 +39,7 @@ class Acquisition {
     void set_gate(double gate_px);
 
     ObjectParameters parameters_;
-    GradientEstimator estimator_;
+    std::unique_ptr<Estimator> estimator_;
     Outline outline_;
     Cover cover_;
     Health health_;

@@ -39,7 +39,7 @@ Place foot(const Piece& piece, const Place& place) {
 struct CandidateGrid::Divider {
     CandidateGrid& grid;
     std::vector<std::uint16_t> last_list = {};
-    std::uint32_t last_at = 0;
+    Cell last_cell = {};
 
     using List = std::vector<std::uint16_t>;
 
@@ -136,7 +136,7 @@ struct CandidateGrid::Divider {
     }
 
     void fill(int column, int row, int size, const List& kept) {
-        const std::uint32_t cell = list(kept);
+        const Cell cell = cell_of(kept);
         for (int y = row; y < std::min(row + size, grid.rows_); ++y) {
             for (int x = column; x < std::min(column + size, grid.columns_); ++x) {
                 grid.cells_[grid.place_of(x, y)] = cell;
@@ -144,17 +144,15 @@ struct CandidateGrid::Divider {
         }
     }
 
-    std::uint32_t list(const List& kept) {
-        if (kept == last_list && last_at > 0) return last_at;
+    Cell cell_of(const List& kept) {
+        if (kept == last_list) return last_cell;
+        const std::size_t same = kept.size() == 1 ? 0 : 1;
         last_list = kept;
-        last_at = static_cast<std::uint32_t>(grid.listed_.size());
-        // One is listed twice: most cells have one or two, and nobody could foresee which.
-        const std::size_t times = kept.size() == 1 ? 2 : 1;
-        grid.listed_.push_back(static_cast<std::uint16_t>(times * kept.size()));
-        for (std::size_t i = 0; i < times; ++i) {
-            grid.listed_.insert(grid.listed_.end(), kept.begin(), kept.end());
-        }
-        return last_at;
+        last_cell = {static_cast<std::uint32_t>(grid.others_.size()),
+                     static_cast<std::uint16_t>(kept.size() - same), kept.front()};
+        grid.others_.insert(grid.others_.end(), kept.begin() + static_cast<std::ptrdiff_t>(same),
+                            kept.end());
+        return last_cell;
     }
 };
 
@@ -194,8 +192,8 @@ void CandidateGrid::build(double reach_px, double anisotropy) {
     cells_per_px_ = 1 / cell_px;
     columns_ = static_cast<int>(width_px / cell_px) + 1;
     rows_ = static_cast<int>(height_px / cell_px) + 1;
-    cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
-    listed_.assign(1, 0);  // the list of nothing
+    cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), {});
+    others_.clear();
 
     std::vector<std::uint16_t> all(pieces_.size());
     std::iota(all.begin(), all.end(), std::uint16_t{0});

@@ -118,14 +118,13 @@ class CandidateGrid {
         const double column = (x - left_px_) * cells_per_px_;
         const double row = (y - top_px_) * cells_per_px_;
         if (!(column >= 0 && row >= 0 && column < columns_ && row < rows_)) return {};
-        const std::uint16_t* listed =
-            &listed_[cells_[place_of(static_cast<int>(column), static_cast<int>(row))]];
-        const std::uint16_t* const end = listed + 1 + *listed;
-        if (++listed == end) return {};
+        const Cell cell = cells_[place_of(static_cast<int>(column), static_cast<int>(row))];
+        if (cell.others == 0) return {};
+        const std::uint16_t* const others = others_.data() + cell.at;
         return are_points_
-                   ? nearest_of(listed, end,
+                   ? nearest_of(cell.first, others, cell.others,
                                 [&](std::uint16_t i) { return seen_point(i, x, y, metric); })
-                   : nearest_of(listed, end,
+                   : nearest_of(cell.first, others, cell.others,
                                 [&](std::uint16_t i) { return seen(i, x, y, metric); });
     }
 
@@ -134,7 +133,7 @@ class CandidateGrid {
     [[nodiscard, gnu::always_inline]] Nearest nearest_among(std::span<const std::uint16_t> pieces,
                                                             double x, double y,
                                                             const Metric& metric) const {
-        return nearest_of(pieces.data(), pieces.data() + pieces.size(),
+        return nearest_of(pieces.front(), pieces.data() + 1, pieces.size() - 1,
                           [&](std::uint16_t i) { return seen(i, x, y, metric); });
     }
 
@@ -155,16 +154,26 @@ class CandidateGrid {
  private:
     struct Divider;
 
+    /// What can be the nearest from somewhere in it: a first piece and the others, of which there
+    /// is at least one, if the same again: most cells have one or two, and nobody could foresee
+    /// which. Without others there is none at all. (The first stands here, since every lookup
+    /// waits for it.)
+    struct Cell {
+        std::uint32_t at = 0;  ///< In others_.
+        std::uint16_t others = 0;
+        std::uint16_t first = 0;
+    };
+
     // Without a branch that nobody could foresee: a squared distance is ordered as its bits are.
     template <class See>
-    [[nodiscard, gnu::always_inline]] static Nearest nearest_of(const std::uint16_t* listed,
-                                                                const std::uint16_t* end,
-                                                                const See& see) {
-        Nearest best = see(*listed);
+    [[nodiscard, gnu::always_inline]] static Nearest nearest_of(std::uint16_t first,
+                                                                const std::uint16_t* others,
+                                                                std::size_t count, const See& see) {
+        Nearest best = see(first);
         auto squared = std::bit_cast<std::int64_t>(best.squared_px);
         auto foot = std::bit_cast<std::int64_t>(best.foot);
-        while (++listed != end) {
-            const Nearest other = see(*listed);
+        for (const std::uint16_t* const end = others + count; others != end; ++others) {
+            const Nearest other = see(*others);
             const auto other_squared = std::bit_cast<std::int64_t>(other.squared_px);
             const bool is_nearer = other_squared < squared;
             best.piece = is_nearer ? other.piece : best.piece;
@@ -209,8 +218,8 @@ class CandidateGrid {
     double cells_per_px_ = 1;
     int columns_ = 0;
     int rows_ = 0;
-    std::vector<std::uint32_t> cells_;   // where each one's list begins
-    std::vector<std::uint16_t> listed_;  // the lists: how many, and which
+    std::vector<Cell> cells_;
+    std::vector<std::uint16_t> others_;
 };
 
 }  // namespace pursuit::tracker

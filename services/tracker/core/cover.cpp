@@ -58,7 +58,8 @@ Cover::Cover(const Contour& contour) {
     };
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t l, std::size_t r) { return angle(l) < angle(r); });
-    for (Numbers* numbers : {&middle_px_.x, &middle_px_.y, &along_px_.x, &along_px_.y}) {
+    for (Numbers* numbers :
+         {&middle_px_.x, &middle_px_.y, &along_px_.x, &along_px_.y, &sideways_px_}) {
         numbers->resize(static_cast<Eigen::Index>(order.size()));
     }
     std::vector<std::uint8_t> sector(first.size());
@@ -81,6 +82,7 @@ Cover::Cover(const Contour& contour) {
         const double longer = own_px > 0 ? length_px[part] / own_px : 1;
         along_px_.x(i) = (piece.bx - piece.ax) * longer;
         along_px_.y(i) = (piece.by - piece.ay) * longer;
+        sideways_px_(i) = sideways_share * own_px * longer;
     }
     while (begun < sectors) begin_[++begun] = piece_.size();
     for (const std::size_t part : part_of) sector_of_.push_back(sector[part]);
@@ -111,17 +113,16 @@ void Cover::close_window(const Outline& outline, const Pose& pose, const Velocit
     const double per_fastest = 1 / std::max(1e-9, std::sqrt(fastest2));
     const Vectors along{a(0, 0) * along_px_.x + a(0, 1) * along_px_.y,
                         a(1, 0) * along_px_.x + a(1, 1) * along_px_.y};
-    const Numbers across = (along.x * speed.y - along.y * speed.x).abs() * per_fastest;
-    const Numbers length2 = along.x * along.x + along.y * along.y;
+    // As long as it is in the image, but for what A stretches it more or less than others.
+    const double scale = std::sqrt(std::abs(a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0)));
+    const Numbers shows =
+        (along.x * speed.y - along.y * speed.x).abs() * per_fastest + scale * sideways_px_;
     std::array<double, sectors> rate{};
     double sum = 0;
     for (std::size_t sector = 0; sector < sectors; ++sector) {
         double of_sector = 0;
         for (std::size_t i = begin_[sector]; i < begin_[sector + 1]; ++i) {
-            if (outline.is_hidden(piece_[i])) continue;
-            const auto part = static_cast<Eigen::Index>(i);
-            // Not the vectors' own root: with AVX-512 that is another one.
-            of_sector += across(part) + sideways_share * std::sqrt(length2(part));
+            if (!outline.is_hidden(piece_[i])) of_sector += shows(static_cast<Eigen::Index>(i));
         }
         rate[sector] = of_sector;
         sum += of_sector;

@@ -54,6 +54,7 @@ class Cover {
     std::vector<std::int32_t> piece_;               // by part: its first
     Vectors middle_px_;                             // model frame
     Vectors along_px_;
+    Numbers sideways_px_;  // what it makes however it moves
     std::array<double, sectors> counted_{};
     std::array<double, sectors> expected_{};
     int events_ = 0;

@@ -30,7 +30,7 @@ std::unique_ptr<Estimator> make_estimator(EstimatorKind kind, TransformKind tran
                                           const Shape& shape, const ObjectParameters& parameters) {
     const Contour contour(shape);
     if (kind == EstimatorKind::kalman) return make_kalman(transform, contour, parameters);
-    return std::make_unique<GradientEstimator>(transform, contour, parameters);
+    return make_gradient(transform, contour, parameters, Pull::point);
 }
 
 }  // namespace pursuit::tracker

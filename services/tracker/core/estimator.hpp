@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
+#include <cmath>
 #include <memory>
 
 #include "services/common/event.hpp"
@@ -11,19 +11,17 @@
 
 namespace pursuit::tracker {
 
-/// How near an event is to an object.
+/// How near an event is to an object that it may belong to.
 struct Approach {
-    double distance_px = std::numeric_limits<double>::infinity();  ///< Infinite beyond the gate.
-    double clutter = 0;  ///< Density of events that are no object's, 1/px.
+    double distance2_px2 = 0;  ///< To what the event pulls, squared.
+    double clutter = 0;        ///< Density of events that are no object's, 1/px.
 
-    /// To the contour, and which piece of it; where points pull, the nearest that ends at the
-    /// point.
-    double contour_px = std::numeric_limits<double>::infinity();
+    /// To the contour, squared, and which piece of it; where points pull, at most so far, and of
+    /// the pieces that end at the point.
+    double contour2_px2 = 0;
     std::int32_t piece = -1;
 
-    [[nodiscard]] bool is_within() const {
-        return distance_px < std::numeric_limits<double>::infinity();
-    }
+    [[nodiscard]] double distance_px() const { return std::sqrt(distance2_px2); }
 };
 
 /// Moves one object's pose by its events. Both ideas, the paper's gradient and the filter, are one
@@ -48,9 +46,9 @@ class Estimator {
     /// How much of what the object's motion would show is not hidden, above 0 … 1.
     virtual void set_visible_share(double share) { static_cast<void>(share); }
 
-    /// The event's distance to the model in the image.
+    /// The event's distance to the model in the image; null beyond the gate. Holds until the next.
     /// since_same_us: since the last event of the same pixel and polarity.
-    virtual Approach approach(const Event& event, std::int64_t since_same_us) = 0;
+    virtual const Approach* approach(const Event& event, std::int64_t since_same_us) = 0;
 
     /// Of that event under the object, 1/px.
     [[nodiscard]] virtual double likelihood() const = 0;

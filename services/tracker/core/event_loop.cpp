@@ -153,22 +153,42 @@ void EventLoop::wake(std::int64_t t_us) {
     return is_taken;
 }
 
+// How near the event is to this object; null where it cannot be the object's.
+[[gnu::always_inline]] inline const Approach* EventLoop::approach(const Event& event,
+                                                                  std::size_t index,
+                                                                  std::int64_t since_same_us) {
+    Track& track = tracks_[index];
+    const Approach* const near = track.approach(event, since_same_us);
+    if (near != nullptr && tells_occlusion_ && occlusion_.hides(index, event, tracks_)) {
+        track.deny();
+        return nullptr;
+    }
+    return near;
+}
+
 // The paper's algorithm, for one event.
 [[gnu::always_inline]] inline void EventLoop::process(const Event& event, PoseSink& sink) {
     const std::int64_t since_same_us = recent_.note(event);
     seeker_.see(event);
 
-    // The objects it may belong to, by the nearest place of each model (3.1).
+    // The objects it may belong to, by the nearest place of each model (3.1). Mostly there is none,
+    // or one that nobody contends with.
+    const ReachMap::Concerned concerned = reach_map_.at(event.x, event.y);
+    if (concerned.is_none()) {
+        ++counters_.events_unused;
+        return;
+    }
+    if (concerned.is_one() && !arbiter_.listens()) {
+        const bool is_used = approach(event, concerned.first(), since_same_us) != nullptr &&
+                             step(event, concerned.first(), 1, sink);
+        ++(is_used ? counters_.events_used : counters_.events_unused);
+        return;
+    }
     arbiter_.begin();
-    reach_map_.for_each(event.x, event.y, [&](std::size_t i) {
-        Track& track = tracks_[i];
-        const Approach near = track.approach(event, since_same_us);
-        if (!near.is_within()) return;
-        if (tells_occlusion_ && occlusion_.hides(i, event, tracks_)) {
-            track.deny();
-            return;
+    concerned.for_each([&](std::size_t i) {
+        if (const Approach* const near = approach(event, i, since_same_us)) {
+            arbiter_.claim(i, tracks_[i].object_id(), near->distance_px(), near->clutter);
         }
-        arbiter_.claim(i, track.object_id(), near.distance_px, near.clutter);
     });
     if (arbiter_.count() == 0) {
         ++counters_.events_unused;

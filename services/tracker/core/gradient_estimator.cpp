@@ -6,15 +6,23 @@
 #include <numbers>
 
 namespace pursuit::tracker {
+namespace {
 
-GradientEstimator::GradientEstimator(TransformKind transform, const Contour& contour,
-                                     const ObjectParameters& parameters, Pull pull)
-    : transform_(transform), pull_(pull), contour_(contour), parameters_(parameters) {
+// Beside a little clutter.
+constexpr double usual_clutter = 0.02;
+
+}  // namespace
+
+template <TransformKind kind>
+GradientEstimator<kind>::GradientEstimator(const Contour& contour,
+                                           const ObjectParameters& parameters, Pull pull)
+    : pull_(pull), contour_(contour), parameters_(parameters) {
     set_parameters(parameters);
     restart({}, {});
 }
 
-void GradientEstimator::restart(const Pose& pose, const Velocity&) {
+template <TransformKind kind>
+void GradientEstimator<kind>::restart(const Pose& pose, const Velocity&) {
     pose_ = pose;
     measure_extent();
     lay_out();
@@ -24,96 +32,149 @@ void GradientEstimator::restart(const Pose& pose, const Velocity&) {
     residual_px_ = 0.5;
 }
 
-void GradientEstimator::set_parameters(const ObjectParameters& parameters) {
+template <TransformKind kind>
+void GradientEstimator<kind>::set_parameters(const ObjectParameters& parameters) {
     parameters_ = parameters;
     gains_ = {parameters.gradient_position_gain, parameters.gradient_angle_gain_rad_px2,
               parameters.gradient_scale_gain_1_px, parameters.gradient_affine_gain_1_px2};
-    is_laid_out_ = false;
+    const double gate_px = parameters.gate_px;
+    gate2_px2_ = gate_px * gate_px;
+    plainly2_px2_ = gate2_px2_ / 16;
     measure_extent();
+    lay_out();
 }
 
-void GradientEstimator::measure_extent() {
+template <TransformKind kind>
+void GradientEstimator<kind>::measure_extent() {
     extent_px_ = contour_.radius_px() * pose_.a.norm();
     reach2_px2_ = reach_px(0) * reach_px(0);
 }
 
-void GradientEstimator::lay_out() {
+template <TransformKind kind>
+void GradientEstimator<kind>::lay_out() {
     if (pull_ == Pull::point) {
         contour_.fit_points(pose_.a, parameters_.gate_px);
     } else {
         contour_.fit(pose_.a, parameters_.gate_px);
     }
-    is_laid_out_ = transform_ == TransformKind::isometry;
 }
 
-Approach GradientEstimator::approach(const Event& event, std::int64_t) {
-    q_ = Eigen::Vector2d(event.x, event.y) - pose_.t_px;
-    if (q_.squaredNorm() > reach2_px2_) return {};
-    if (!is_laid_out_) lay_out();
-    const bool wants_points = pull_ == Pull::point;
-    const double gate2 = parameters_.gate_px * parameters_.gate_px;
-    CandidateGrid::Nearest on_contour;
-    CandidateGrid::Nearest nearest;
-    const auto look_up = [&](double x, double y, const auto& metric) {
-        nearest = (wants_points ? contour_.points() : contour_.pieces()).nearest(x, y, metric);
-        if (nearest.piece < 0 || !(nearest.squared_px <= gate2)) return;
-        on_contour = wants_points ? contour_.pieces().nearest_among(
-                                        contour_.pieces_at(nearest.piece), x, y, metric)
-                                  : nearest;
-    };
-    const Eigen::Matrix2d& a = pose_.a;
-    if (transform_ == TransformKind::isometry) {
-        // The inverse of A is its transpose.
-        look_up(a(0, 0) * q_.x() + a(1, 0) * q_.y(), a(0, 1) * q_.x() + a(1, 1) * q_.y(),
-                ModelMetric());
-    } else {
-        const double per_area = 1 / (a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
-        look_up((a(1, 1) * q_.x() - a(0, 1) * q_.y()) * per_area,
-                (a(0, 0) * q_.y() - a(1, 0) * q_.x()) * per_area, ImageMetric(a));
-    }
-    if (nearest.piece < 0 || !(nearest.squared_px <= gate2)) return {};
-    distance_px_ = std::sqrt(nearest.squared_px);
-    m_ = (wants_points ? contour_.points() : contour_.pieces()).place(nearest);
+template <TransformKind kind>
+const Approach* GradientEstimator<kind>::approach(const Event& event, std::int64_t) {
+    q_ << event.x - pose_.t_px.x(), event.y - pose_.t_px.y();
+    if (q_.squaredNorm() > reach2_px2_) return nullptr;
     t_us_ = event.t_us;
-    // Beside a little clutter.
-    return {distance_px_, 0.02, std::sqrt(on_contour.squared_px), on_contour.piece};
+    const Eigen::Matrix2d& a = pose_.a;
+    if constexpr (keeps_its_size) {
+        // The inverse of A is its transpose.
+        return approach_at(a(0, 0) * q_.x() + a(1, 0) * q_.y(), a(0, 0) * q_.y() - a(1, 0) * q_.x(),
+                           ModelMetric());
+    } else {
+        lay_out();
+        const double per_area = 1 / (a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
+        return approach_at((a(1, 1) * q_.x() - a(0, 1) * q_.y()) * per_area,
+                           (a(0, 0) * q_.y() - a(1, 0) * q_.x()) * per_area, ImageMetric(a));
+    }
 }
 
-double GradientEstimator::reach_px(std::int64_t) const { return extent_px_ + parameters_.gate_px; }
+template <TransformKind kind>
+template <class Metric>
+[[gnu::always_inline]] inline const Approach* GradientEstimator<kind>::approach_at(
+    double x, double y, const Metric& metric) {
+    const bool wants_point = pull_ == Pull::point;
+    const CandidateGrid& grid = wants_point ? contour_.points() : contour_.pieces();
+    const auto nearest = grid.nearest(x, y, metric);
+    if (nearest.piece < 0 || !(nearest.squared_px <= gate2_px2_)) return nullptr;
+    x_ << x, y;
+    m_ = grid.place(nearest);
+    near_ = {nearest.squared_px, usual_clutter, nearest.squared_px, nearest.piece};
+    if (wants_point) look_at_contour(x, y, metric, nearest);
+    return &near_;
+}
+
+template <TransformKind kind>
+template <class Metric>
+[[gnu::always_inline]] inline void GradientEstimator<kind>::look_at_contour(
+    double x, double y, const Metric& metric, const CandidateGrid::Nearest& point) {
+    const auto ending = contour_.pieces_at(point.piece);
+    near_.piece = ending.front();
+    if (point.squared_px < plainly2_px2_) return;
+    const auto nearest = contour_.pieces().nearest_among(ending, x, y, metric);
+    near_.contour2_px2 = nearest.squared_px;
+    near_.piece = nearest.piece;
+}
+
+template <TransformKind kind>
+double GradientEstimator<kind>::reach_px(std::int64_t) const {
+    return extent_px_ + parameters_.gate_px;
+}
 
 // As of events scattered by a pixel.
-double GradientEstimator::likelihood() const {
-    return 0.4 * std::exp(-0.5 * distance_px_ * distance_px_);
+template <TransformKind kind>
+double GradientEstimator<kind>::likelihood() const {
+    return 0.4 * std::exp(-0.5 * near_.distance2_px2);
 }
 
-bool GradientEstimator::take(double weight) {
+template <TransformKind kind>
+bool GradientEstimator<kind>::take(double weight) {
     if (!(weight > 0)) return false;
-    descend(pose_, transform_, gains_, q_, m_, weight);
-    if (transform_ != TransformKind::isometry) measure_extent();
-    residual_px_ += 0.01 * weight * (distance_px_ - residual_px_);
-    if (slope_.is_due(t_us_)) {
-        const double theta = theta_rad(pose_.a);
-        turned_rad_ += std::remainder(theta - last_theta_rad_, 2 * std::numbers::pi);
-        last_theta_rad_ = theta;
-        Slope<5>::Values values;
-        values << pose_.t_px.x(), pose_.t_px.y(), turned_rad_, std::log(scale_x(pose_.a)),
-            std::log(scale_y(pose_.a));
-        slope_.add(t_us_, values);
+    if constexpr (keeps_its_size) {
+        descend_rigidly(pose_, gains_, x_, m_, weight);
+    } else {
+        descend<kind>(pose_, gains_, q_, m_, weight);
+        measure_extent();
     }
+    residual_px_ += 0.01 * weight * (near_.distance_px() - residual_px_);
+    if (slope_.is_due(t_us_)) sample_slope();
     return true;
 }
 
-Velocity GradientEstimator::velocity() const {
+template <TransformKind kind>
+void GradientEstimator<kind>::sample_slope() {
+    const double theta = theta_rad(pose_.a);
+    turned_rad_ += std::remainder(theta - last_theta_rad_, 2 * std::numbers::pi);
+    last_theta_rad_ = theta;
+    Slope<5>::Values values;
+    values << pose_.t_px.x(), pose_.t_px.y(), turned_rad_, 0, 0;
+    if constexpr (!keeps_its_size) {
+        values(3) = std::log(scale_x(pose_.a));
+        values(4) = std::log(scale_y(pose_.a));
+    }
+    slope_.add(t_us_, values);
+}
+
+template <TransformKind kind>
+Velocity GradientEstimator<kind>::velocity() const {
     const auto slope = slope_.per_s();
     return {slope(0), slope(1), slope(2), slope(3), slope(4)};
 }
 
-void GradientEstimator::describe(std::int64_t, PoseRecord& record) const {
+template <TransformKind kind>
+void GradientEstimator<kind>::describe(std::int64_t, PoseRecord& record) const {
     record.pose = pose_;
     record.velocity = velocity();
     record.pose_covariance.fill(std::nan(""));
     record.velocity_covariance.fill(std::nan(""));
     record.mean_residual_px = static_cast<float>(residual_px_);
+}
+
+std::unique_ptr<Estimator> make_gradient(TransformKind transform, const Contour& contour,
+                                         const ObjectParameters& parameters, Pull pull) {
+    switch (transform) {
+        case TransformKind::isometry:
+            return std::make_unique<GradientEstimator<TransformKind::isometry>>(contour, parameters,
+                                                                                pull);
+        case TransformKind::similarity:
+            return std::make_unique<GradientEstimator<TransformKind::similarity>>(contour,
+                                                                                  parameters, pull);
+        case TransformKind::paper_affine:
+            return std::make_unique<GradientEstimator<TransformKind::paper_affine>>(
+                contour, parameters, pull);
+        case TransformKind::full_affine:
+            break;
+    }
+    return std::make_unique<GradientEstimator<TransformKind::full_affine>>(contour, parameters,
+                                                                           pull);
 }
 
 }  // namespace pursuit::tracker

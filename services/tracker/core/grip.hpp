@@ -46,7 +46,9 @@ class Grip {
     /// One that was on this piece of the contour, and moved the pose.
     void count_place(std::int32_t piece) { cover_.count(piece); }
 
-    /// Whether enough events were counted to be weighed.
+    /// So many are weighed together.
+    static constexpr int together = 24;
+    /// Whether as many were counted.
     [[nodiscard]] bool is_due() const { return sharp_ + astray_ >= together; }
     /// Whether any were.
     [[nodiscard]] bool is_counting() const { return sharp_ + astray_ > 0; }
@@ -85,7 +87,6 @@ class Grip {
     }
 
  private:
-    static constexpr int together = 8;
     // The events must speak against the pose for this long, less what they speak for it twice:
     // models taken from a real recording, and the first moments of slow objects among noise, do so
     // for a while.

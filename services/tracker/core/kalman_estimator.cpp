@@ -246,11 +246,11 @@ double KalmanEstimator<kind>::lead_px(std::int32_t piece, int lead) const {
 }
 
 template <TransformKind kind>
-Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_same_us) {
+const Approach* KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_same_us) {
     const double within_px = reach_px(event.t_us);
     if ((Eigen::Vector2d(event.x, event.y) - filter_.pose().t_px).squaredNorm() >
         within_px * within_px) {
-        return {};
+        return nullptr;
     }
     predict_to(event.t_us);
     const Pose& pose = filter_.pose();
@@ -272,9 +272,9 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     }
     const ContourPlace place =
         place_on_contour<kind>(contour_.pieces(), pose.a, q, Clutter::far_to_px);
-    if (place.piece < 0) return {};
+    if (place.piece < 0) return nullptr;
     const double past_end2 = place.squared_px - place.r_px * place.r_px;
-    if (past_end2 > Clutter::overshoot_px * Clutter::overshoot_px) return {};
+    if (past_end2 > Clutter::overshoot_px * Clutter::overshoot_px) return nullptr;
 
     const Step j = M::along(place.n, place.arm_px, pose.a, place.model_px);
     const Segment& segment = contour_.pieces().segment(place.piece);
@@ -290,7 +290,7 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     if (distance_px > Clutter::far_from_px && distance_px < Clutter::far_to_px) {
         clutter_.count_far(place.piece, r_px);
     }
-    if (distance_px > parameters_.gate_px) return {};
+    if (distance_px > parameters_.gate_px) return nullptr;
     clutter_.pass_near();
     measured_.row = filter_.row(j, lead, h);
     if constexpr (is_bent) {
@@ -302,7 +302,8 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     measured_.lead = lead;
     measured_.told = noise_.at(r_px, measured_.row.h_p_h, subsequent);
     measured_.clutter = clutter_.density(place.piece, r_px);
-    return {distance_px, measured_.clutter, distance_px, place.piece};
+    near_ = {r_px * r_px, measured_.clutter, r_px * r_px, place.piece};
+    return &near_;
 }
 
 template <TransformKind kind>

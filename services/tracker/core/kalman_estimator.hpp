@@ -29,7 +29,7 @@ class KalmanEstimator : public Estimator {
     void resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity,
                 double way_px) override;
     void set_visible_share(double share) override { visible_share_ = share; }
-    Approach approach(const Event& event, std::int64_t since_same_us) override;
+    const Approach* approach(const Event& event, std::int64_t since_same_us) override;
     [[nodiscard]] double likelihood() const override { return measured_.told.likelihood(); }
     bool take(double weight) override;
     [[nodiscard]] double reach_px(std::int64_t t_us) const override;
@@ -112,6 +112,7 @@ class KalmanEstimator : public Estimator {
     ContourOffsets offsets_;
     NoiseWatch watch_;
     Measurement measured_{};
+    Approach near_;
     Pose way_begin_;
     bool stands_still_ = false;  // among noise
     LeadPrior lead_prior_;

@@ -50,18 +50,15 @@ struct Motion {
             // exp(B) to second order: a full turn of small steps leaves no growth behind.
             pose.a += b * (pose.a + 0.5 * b * pose.a);
         } else {
-            const double angle = step(2);
-            // On the circle to the fourth order.
-            const double s = angle * (1 - angle * angle / 6);
-            const double c = 1 - angle * angle * (0.5 - angle * angle / 24);
+            if constexpr (kind == TransformKind::isometry) {
+                turn(step(2), pose.a);
+                return;
+            }
             // Of what keeps its angles one column tells the other.
+            const auto [s, c] = on_circle(step(2));
             const double x = c * pose.a(0, 0) - s * pose.a(1, 0);
             const double y = s * pose.a(0, 0) + c * pose.a(1, 0);
-            if constexpr (kind == TransformKind::isometry) {
-                // Back onto the circle: one Newton step of 1/sqrt.
-                const double onto = 1.5 - 0.5 * (x * x + y * y);
-                pose.a << x * onto, -(y * onto), y * onto, x * onto;
-            } else if constexpr (kind == TransformKind::similarity) {
+            if constexpr (kind == TransformKind::similarity) {
                 const double by = grown(step(3));
                 pose.a << x * by, -(y * by), y * by, x * by;
             } else {
@@ -75,6 +72,20 @@ struct Motion {
                 pose.a.col(1) -= pose.a.col(0) * (pose.a.col(0).dot(pose.a.col(1)) / length2);
             }
         }
+    }
+
+    /// Turns a rotation. What rounding has taken it off the circle is made good with the next
+    /// turn, by one Newton step of 1/sqrt: so nobody waits for it.
+    static void turn(double angle_rad, Eigen::Matrix2d& a) {
+        const double cosine = a(0, 0);
+        const double sine = a(1, 0);
+        const double onto = 1.5 - 0.5 * (cosine * cosine + sine * sine);
+        const auto [s, c] = on_circle(angle_rad);
+        const double x = onto * cosine;
+        const double y = onto * sine;
+        const double turned_x = c * x - s * y;
+        const double turned_y = s * x + c * y;
+        a << turned_x, -turned_y, turned_y, turned_x;
     }
 
     static double omega(const Step& twist) {
@@ -146,6 +157,14 @@ struct Motion {
     }
 
  private:
+    /// Sine and cosine of a small angle, to the fourth order.
+    struct OnCircle {
+        double s, c;
+    };
+    static OnCircle on_circle(double angle) {
+        const double angle2 = angle * angle;
+        return {angle - angle * angle2 * (1.0 / 6), 1 - angle2 * (0.5 - angle2 * (1.0 / 24))};
+    }
     static double grown(double log_scale) { return 1 + log_scale * (1 + log_scale / 2); }
 };
 

@@ -11,7 +11,7 @@ void ReachMap::restart(Geometry geometry, std::size_t objects) {
     columns_ = cells(geometry.width);
     rows_ = cells(geometry.height);
     words_ = (std::clamp(objects, std::size_t{1}, most_objects) + 63) / 64;
-    cells_.assign(columns_ * rows_, Cell{});
+    bits_.assign(columns_ * rows_ * words_, 0);
     placed_.assign(objects, Reach{});
 }
 
@@ -43,7 +43,7 @@ void ReachMap::mark(std::size_t index, const Reach& reach, bool is_there) {
          ++y) {
         for (auto x = static_cast<std::size_t>(first_x);
              x < columns_ && static_cast<double>(x) <= last_x; ++x) {
-            std::uint64_t& word = cells_[y * columns_ + x][index / 64];
+            std::uint64_t& word = bits_[(y * columns_ + x) * words_ + index / 64];
             word = is_there ? word | bit : word & ~bit;
         }
     }

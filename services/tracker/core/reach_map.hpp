@@ -40,21 +40,37 @@ class ReachMap {
         if (!is_there) enter(index, reach);
     }
 
-    /// Calls ask(index), in order, for every object that the place may concern.
-    template <typename Ask>
-    void for_each(std::uint16_t x, std::uint16_t y, const Ask& ask) const {
-        const Cell& cell = cells_[(y >> cell_bits) * columns_ + (x >> cell_bits)];
-        std::size_t word = 0;
-        do {
-            for (std::uint64_t bits = cell[word]; bits != 0; bits &= bits - 1) {
-                ask(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
+    /// The objects that a place may concern, as they are entered now.
+    class Concerned {
+     public:
+        [[nodiscard]] bool is_none() const { return words_ == 1 && *bits_ == 0; }
+        /// False also where there are so many objects that it is not told at a glance.
+        [[nodiscard]] bool is_one() const { return words_ == 1 && std::has_single_bit(*bits_); }
+        [[nodiscard]] std::size_t first() const {
+            return static_cast<std::size_t>(std::countr_zero(*bits_));
+        }
+        /// Calls ask(index) for each, in order.
+        template <typename Ask>
+        void for_each(const Ask& ask) const {
+            for (std::size_t word = 0; word < words_; ++word) {
+                for (std::uint64_t bits = bits_[word]; bits != 0; bits &= bits - 1) {
+                    ask(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
+                }
             }
-        } while (++word < words_);
+        }
+
+     private:
+        friend class ReachMap;
+        Concerned(const std::uint64_t* bits, std::size_t words) : bits_(bits), words_(words) {}
+
+        const std::uint64_t* bits_;
+        std::size_t words_;
+    };
+    [[nodiscard]] Concerned at(std::uint16_t x, std::uint16_t y) const {
+        return {&bits_[((y >> cell_bits) * columns_ + (x >> cell_bits)) * words_], words_};
     }
 
  private:
-    using Cell = std::array<std::uint64_t, most_objects / 64>;
-
     void enter(std::size_t index, const Reach& reach);
     void mark(std::size_t index, const Reach& reach, bool is_there);
 
@@ -65,7 +81,7 @@ class ReachMap {
     std::size_t columns_ = 0;
     std::size_t rows_ = 0;
     std::size_t words_ = 0;
-    std::vector<Cell> cells_;
+    std::vector<std::uint64_t> bits_;  // by cell, a bit for each object
     std::vector<Reach> placed_;
 };
 

@@ -285,18 +285,23 @@ Reach Track::reach(std::int64_t t_us) const {
     return {estimator_->pose().t_px, estimator_->reach_px(t_us)};
 }
 
-Approach Track::approach(const Event& event, std::int64_t since_same_us) {
-    if (is_covered_ || (is_searching_ && !is_acquiring_)) return {};
+const Approach* Track::approach(const Event& event, std::int64_t since_same_us) {
+    if (is_covered_ || (is_searching_ && !is_acquiring_)) return nullptr;
     if (is_acquiring_) return acquisition_->approach(event);
-    if (watches_inside_) watch_inside(event, since_same_us);
-    const Approach near = estimator_->approach(event, since_same_us);
-    distance_px_ = near.contour_px;
-    piece_ = near.piece;
+    const Approach* const near = estimator_->approach(event, since_same_us);
+    constexpr double nearest2_px2 = Vanishing::nearest_px * Vanishing::nearest_px;
+    if (watches_inside_ && (near == nullptr || near->contour2_px2 >= nearest2_px2)) {
+        watch_inside(event, since_same_us);
+    }
+    if (near != nullptr) {
+        distance2_px2_ = near->contour2_px2;
+        piece_ = near->piece;
+    }
     return near;
 }
 
 void Track::find_what_to_watch() {
-    sharp_px_ = parameters_.gate_px / 4;
+    sharp2_px2_ = parameters_.gate_px * parameters_.gate_px / 16;
     // Where another covers it in part, what comes from inside may be the other's.
     watches_inside_ =
         vanishing_.can_tell() && !is_partly_hidden() && parameters_.let_go_sharpness > 0;
@@ -315,7 +320,7 @@ bool Track::take(const Event& event, double weight) {
     } else {
         // After a pause the next one says by itself whether it is quiet.
         const bool was_pause = silence_.hear(event.t_us);
-        const bool is_sharp = distance_px_ < sharp_px_;
+        const bool is_sharp = distance2_px2_ < sharp2_px2_;
         grip_.count(is_sharp);
         if (was_pause || grip_.is_due()) {
             weigh(event.t_us);
@@ -340,7 +345,7 @@ bool Track::take(const Event& event, double weight) {
 
 void Track::deny() {
     // Counted like those taken: enough of them, and the object is not hidden there.
-    if (!is_acquiring_ && piece_ >= 0 && distance_px_ < sharp_px_) {
+    if (!is_acquiring_ && piece_ >= 0 && distance2_px2_ < sharp2_px2_) {
         outline_.count(piece_, 1);
     }
 }

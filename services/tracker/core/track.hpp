@@ -63,8 +63,9 @@ class Track {
     /// Where events until t_us can concern the object.
     [[nodiscard]] Reach reach(std::int64_t t_us) const;
 
-    /// How near an event is. take() uses the event that approach() was asked for last.
-    Approach approach(const Event& event, std::int64_t since_same_us);
+    /// How near an event is; null where it is none of the object's. take() uses the event that
+    /// approach() was asked for last.
+    const Approach* approach(const Event& event, std::int64_t since_same_us);
     /// Of that event under the object, 1/px.
     [[nodiscard]] double likelihood() const {
         return is_acquiring_ ? acquisition_->likelihood() : estimator_->likelihood();
@@ -170,7 +171,7 @@ class Track {
     Tally tally_;
     double visible_share_ = 1;
     bool watches_inside_ = false;
-    double sharp_px_ = 0;  // nearer than this an event lies on the contour
+    double sharp2_px2_ = 0;  // nearer than this, squared, an event lies on the contour
     std::int32_t piece_ = -1;
     bool is_covered_ = false;
     bool is_adrift_ = false;  // since a new stream began: it may be anywhere
@@ -188,7 +189,7 @@ class Track {
     std::int64_t emerged_us_ = -1;     // came out from under another; not yet confirmed by events
     bool emerges_ = false;             // and was not checked since
     std::int64_t emerged_at_us_ = -1;  // the last time
-    double distance_px_ = 0;
+    double distance2_px2_ = 0;         // of the event from the contour, squared
     std::int64_t last_event_t_us_ = 0;
     std::uint64_t events_used_ = 0;
 };

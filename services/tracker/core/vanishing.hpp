@@ -84,6 +84,9 @@ class Vanishing {
         return is_suspected() && t_us >= suspected_us_ + verdict_us;
     }
 
+    /// Nothing nearer to the contour tells anything, image px.
+    static constexpr double nearest_px = 0.9;
+
     static constexpr std::int64_t bin_us = 2'500;
     static constexpr std::int64_t window_us = 2 * bin_us;
     static constexpr std::int64_t verdict_us = 35'000;

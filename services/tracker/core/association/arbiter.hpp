@@ -42,6 +42,8 @@ class Arbiter {
     [[nodiscard]] std::size_t claimant(std::size_t i) const { return claimants_[i]; }
     [[nodiscard]] double weight(std::size_t i) const { return claims_[i].weight; }
 
+    /// The strategy hears of every event, also of those that one object alone is near.
+    [[nodiscard]] bool listens() const { return listens_; }
     /// One object alone claims it, and the strategy need not hear of that: all of it is the
     /// object's.
     [[nodiscard]] bool is_plain() const { return count_ == 1 && !listens_; }

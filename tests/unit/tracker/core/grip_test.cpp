@@ -48,10 +48,10 @@ TEST(Grip, waits_for_some_events_before_it_weighs_them) {
     grip.count(true);
     EXPECT_TRUE(grip.is_counting());
     EXPECT_FALSE(grip.is_due());
-    for (int i = 0; i < 7; ++i) grip.count(i % 2 == 0);
+    for (int i = 0; i < Grip::together - 1; ++i) grip.count(i % 2 == 0);
     EXPECT_TRUE(grip.is_due());
-    EXPECT_EQ(grip.sharp(), 5);
-    EXPECT_EQ(grip.astray(), 3);
+    EXPECT_EQ(grip.sharp(), Grip::together / 2 + 1);
+    EXPECT_EQ(grip.astray(), Grip::together / 2 - 1);
     grip.weigh(0, false, let_go);
     EXPECT_FALSE(grip.is_counting());
 }

@@ -17,7 +17,7 @@ using test::small_sensor;
 
 std::vector<std::size_t> asked(const ReachMap& map, std::uint16_t x, std::uint16_t y) {
     std::vector<std::size_t> indices;
-    map.for_each(x, y, [&](std::size_t i) { indices.push_back(i); });
+    map.at(x, y).for_each([&](std::size_t i) { indices.push_back(i); });
     return indices;
 }
 
