@@ -121,11 +121,14 @@ class CandidateGrid {
         const Cell cell = cells_[place_of(static_cast<int>(column), static_cast<int>(row))];
         if (cell.others == 0) return {};
         const std::uint16_t* const others = others_.data() + cell.at;
-        return are_points_
-                   ? nearest_of(cell.first, others, cell.others,
-                                [&](std::uint16_t i) { return seen_point(i, x, y, metric); })
-                   : nearest_of(cell.first, others, cell.others,
-                                [&](std::uint16_t i) { return seen(i, x, y, metric); });
+        const auto see_point = [&](std::uint16_t i) __attribute__((always_inline)) {
+            return seen_point(i, x, y, metric);
+        };
+        const auto see = [&](std::uint16_t i) __attribute__((always_inline)) {
+            return seen(i, x, y, metric);
+        };
+        return are_points_ ? nearest_of(cell.first, others, cell.others, see_point)
+                           : nearest_of(cell.first, others, cell.others, see);
     }
 
     /// The nearest of these alone, one or more.
@@ -133,8 +136,10 @@ class CandidateGrid {
     [[nodiscard, gnu::always_inline]] Nearest nearest_among(std::span<const std::uint16_t> pieces,
                                                             double x, double y,
                                                             const Metric& metric) const {
-        return nearest_of(pieces.front(), pieces.data() + 1, pieces.size() - 1,
-                          [&](std::uint16_t i) { return seen(i, x, y, metric); });
+        const auto see = [&](std::uint16_t i) __attribute__((always_inline)) {
+            return seen(i, x, y, metric);
+        };
+        return nearest_of(pieces.front(), pieces.data() + 1, pieces.size() - 1, see);
     }
 
     [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
@@ -185,15 +190,15 @@ class CandidateGrid {
         return best;
     }
     template <class Metric>
-    [[nodiscard]] Nearest seen_point(std::uint16_t piece, double x, double y,
-                                     const Metric& metric) const {
+    [[nodiscard, gnu::always_inline]] Nearest seen_point(std::uint16_t piece, double x, double y,
+                                                         const Metric& metric) const {
         const Place& point = points_[piece];
         return {piece, metric.squared(x - point.x, y - point.y), 0};
     }
     // As Piece has it, in the same order.
     template <class Metric>
-    [[nodiscard]] Nearest seen(std::uint16_t piece, double x, double y,
-                               const Metric& metric) const {
+    [[nodiscard, gnu::always_inline]] Nearest seen(std::uint16_t piece, double x, double y,
+                                                   const Metric& metric) const {
         const Segment& segment = segments_[piece];
         const double vx = x - segment.ax;
         const double vy = y - segment.ay;

@@ -71,7 +71,9 @@ void Clutter::restart() {
     whole_.forget();
     for (Part& part : parts_) part.forget();
     standing_density_ = {floor, floor};
-    since_near_us_ = for_more_ = for_noise_ = 0;
+    fresh_ = {};
+    fresh_count_ = 0;
+    for_more_ = for_noise_ = 0;
     is_noise_alone_ = is_quiet_ = is_swamped_ = is_steady_ = false;
     usual_near_hz_ = 0;
     bin_events_ = bin_mean_ = bin_variance_ = bins_ = 0;
@@ -79,9 +81,9 @@ void Clutter::restart() {
     clutter_hz_ = noise_hz_ = 0;
     remembered_ = 0;
     new_far_ = far_hz_ = {};
-    near_count_ = near_time_us_ = slack_us_ = 0;
-    folded_us_ = fold_at_us_ = 0;
-    t_us_ = -1;
+    near_count_ = near_began_us_ = slack_us_ = 0;
+    folded_us_ = fold_at_us_ = last_near_us_ = due_us_ = t_us_ = 0;
+    has_begun_ = false;
 }
 
 // By the normal that points away from the model's centre.
@@ -139,40 +141,37 @@ void Clutter::sample(const Contour& contour, const Eigen::Matrix2d& a) {
         }
         whole_.far_area_px2[side] = std::max(whole_.far_area_px2[side], 1.0);
     }
-    is_steady_ = seems_steady();
+    set_steady(seems_steady());
 }
 
 void Clutter::count_far(std::int32_t piece, double r_px) {
     ++new_far_[r_px > 0];
     ++bin_events_;
-    Part& part = parts_[facing_[static_cast<std::size_t>(piece)]];
-    for (Part* counted : {&whole_, &part}) {
-        ++counted->far_events[r_px > 0];
-        ++counted->events;
-    }
-    whole_.close_window_at(whole_first_events, whole_window_events);
-    part.close_window_at(part_first_events, part_window_events);
+    ++fresh_[facing_[static_cast<std::size_t>(piece)]].far[r_px > 0];
+    if (++fresh_count_ == together) settle();
 }
 
-void Clutter::count_near(std::int32_t piece, double share) {
-    Part& part = parts_[facing_[static_cast<std::size_t>(piece)]];
-    for (Part* counted : {&whole_, &part}) {
-        counted->own_events += share;
-        ++counted->near_events;
-        ++counted->events;
+void Clutter::settle() {
+    fresh_count_ = 0;
+    for (std::size_t facing = 0; facing < facings; ++facing) {
+        const Fresh fresh = std::exchange(fresh_[facing], {});
+        const double events = fresh.near + fresh.far[0] + fresh.far[1];
+        if (events == 0) continue;
+        for (Part* counted : {&whole_, &parts_[facing]}) {
+            counted->near_events += fresh.near;
+            counted->own_events += fresh.own;
+            counted->far_events[0] += fresh.far[0];
+            counted->far_events[1] += fresh.far[1];
+            counted->events += events;
+        }
+        parts_[facing].close_window_at(part_first_events, part_window_events);
     }
     whole_.close_window_at(whole_first_events, whole_window_events);
-    part.close_window_at(part_first_events, part_window_events);
 }
 
 // Two sequential tests (Page's) of the rate on the contour: the noise's own, or 1.4 times as much.
 void Clutter::weigh_noise() {
-    const double since_near_us = std::exchange(since_near_us_, 0);
-    if (!is_steady_) {
-        for_more_ = for_noise_ = 0;
-        is_noise_alone_ = false;
-        return;
-    }
+    const auto since_near_us = static_cast<double>(t_us_ - last_near_us_);
     const double more =
         log_more_than_noise - (more_than_noise - 1) * clutter_hz_ * since_near_us * 1e-6;
     for_more_ = std::max(for_more_ + more, 0.0);
@@ -186,6 +185,25 @@ void Clutter::weigh_noise() {
     }
 }
 
+void Clutter::set_steady(bool is_steady) {
+    is_steady_ = is_steady;
+    if (is_steady) return;
+    for_more_ = for_noise_ = 0;
+    is_noise_alone_ = false;
+}
+
+void Clutter::catch_up() {
+    if (!has_begun_) {
+        has_begun_ = true;
+        folded_us_ = last_near_us_ = t_us_;
+        near_began_us_ = static_cast<double>(t_us_);
+    }
+    if (t_us_ >= bin_end_us_) close_bin(t_us_);
+    if (t_us_ >= fold_at_us_ || near_time_us() > slack_us_) fold(t_us_);
+    const auto slack_ends_us = static_cast<std::int64_t>(near_began_us_ + slack_us_) + 1;
+    due_us_ = std::min({bin_end_us_, fold_at_us_, slack_ends_us});
+}
+
 void Clutter::close_bin(std::int64_t t_us) {
     const bool is_first = bin_end_us_ == 0;
     const std::int64_t missed_us = t_us - bin_end_us_;
@@ -193,7 +211,7 @@ void Clutter::close_bin(std::int64_t t_us) {
     if (is_first || missed_us > bin_us) {  // A silence is no noise.
         bins_ = 0;
         bin_mean_ = bin_variance_ = bin_events_ = 0;
-        is_steady_ = false;
+        set_steady(false);
         return;
     }
     bins_ = std::min(bins_ + 1, bins_remembered);
@@ -201,7 +219,7 @@ void Clutter::close_bin(std::int64_t t_us) {
     bin_mean_ += off / bins_;
     bin_variance_ += (off * (bin_events_ - bin_mean_) - bin_variance_) / bins_;
     bin_events_ = 0;
-    is_steady_ = seems_steady();
+    set_steady(seems_steady());
 }
 
 bool Clutter::seems_steady() const {
@@ -218,8 +236,8 @@ void Clutter::fold(std::int64_t t_us) {
     folded_us_ = t_us;
     fold_at_us_ = t_us + fold_us;
     const double far_kept = std::exp(-dt_s / far_memory_s);
-    const double near_hz = near_count_ / std::max(near_time_us_, 1.0) * 1e6;
-    slack_us_ = 2 * near_time_us_;
+    const double near_hz = near_count_ / std::max(near_time_us(), 1.0) * 1e6;
+    slack_us_ = 2 * near_time_us();
     usual_near_hz_ += (near_hz - usual_near_hz_) *
                       std::min(dt_s / (near_hz > usual_near_hz_ ? rise_s : fall_s), 1.0);
     is_quiet_ = near_hz < usual_near_hz_ / 4;
@@ -233,7 +251,7 @@ void Clutter::fold(std::int64_t t_us) {
                           std::max(whole_.far_area_px2[side], 1.0) * whole_.near_width_px[side];
         clutter_hz += beside_hz[side] * near_px;
     }
-    is_steady_ = seems_steady();
+    set_steady(seems_steady());
     clutter_hz_ = clutter_hz;
     const double near_px2 = (whole_.near_width_px[0] + whole_.near_width_px[1]) * near_px;
     const double of_px_hz = clutter_hz / std::max(near_px2, 1.0);

@@ -28,27 +28,29 @@ class Clutter {
 
     /// Time goes on: to be called before the events of a time are counted.
     void reach(std::int64_t t_us) {
-        if (t_us_ < 0) t_us_ = folded_us_ = t_us;
-        near_time_us_ += static_cast<double>(t_us - t_us_);
-        since_near_us_ += static_cast<double>(t_us - t_us_);
         t_us_ = t_us;
-        if (t_us >= bin_end_us_) close_bin(t_us);
-        if (t_us >= fold_at_us_ || near_time_us_ > slack_us_) fold(t_us);
+        if (t_us >= due_us_) catch_up();
     }
 
     /// An event beside this piece of the contour at signed distance r.
     void count_far(std::int32_t piece, double r_px);
     /// An event on the contour, counted or not.
     void pass_near() {
-        weigh_noise();
+        if (is_steady_) weigh_noise();
+        last_near_us_ = t_us_;
         if (near_count_ < near_window_events) {
             ++near_count_;
         } else {
-            near_time_us_ *= near_window_events / (near_window_events + 1);
+            near_began_us_ += near_time_us() * (1 / (near_window_events + 1));
         }
     }
     /// An event on this piece that is the object's with probability `share`.
-    void count_near(std::int32_t piece, double share);
+    void count_near(std::int32_t piece, double share) {
+        Fresh& fresh = fresh_[facing_[static_cast<std::size_t>(piece)]];
+        ++fresh.near;
+        fresh.own += share;
+        if (++fresh_count_ == together) settle();
+    }
 
     /// Density of clutter over r at this side of the piece, 1/px, beside a density of 1 for the
     /// object's own events.
@@ -104,10 +106,26 @@ class Clutter {
     };
     static constexpr std::size_t facings = 8;
 
+    /// What was counted at pieces of a facing and is not yet in the windows: so many events enter
+    /// them together.
+    struct Fresh {
+        std::array<double, 2> far{};
+        double near = 0;
+        double own = 0;
+    };
+    static constexpr int together = 16;
+
     [[nodiscard]] const Part& part_of(std::int32_t piece) const {
         return parts_[facing_[static_cast<std::size_t>(piece)]];
     }
     void weigh_noise();
+    void settle();
+    void catch_up();
+    void set_steady(bool is_steady);
+    /// That the last ten or so events on the contour took.
+    [[nodiscard]] double near_time_us() const {
+        return static_cast<double>(t_us_) - near_began_us_;
+    }
     void find_facings(const Contour& contour);
     [[nodiscard]] bool seems_steady() const;
     void fold(std::int64_t t_us);
@@ -116,11 +134,13 @@ class Clutter {
     Part whole_;
     std::array<Part, facings> parts_;
     std::vector<std::uint8_t> facing_;  // of each piece
+    std::array<Fresh, facings> fresh_;
+    int fresh_count_ = 0;
     bool has_parts_ = false;
 
     // Over the last time. When an object stops, its events end and those beside it do not: what
     // then comes is known for clutter before enough of it was counted.
-    double since_near_us_ = 0;
+    std::int64_t last_near_us_ = 0;
     double for_more_ = 0;  // log likelihoods that there is more than noise, and that there is not
     double for_noise_ = 0;
     bool is_noise_alone_ = false;
@@ -132,10 +152,12 @@ class Clutter {
     double remembered_ = 0;
     std::array<double, 2> new_far_{};
     std::array<double, 2> far_hz_{};
-    double near_count_ = 0;    // the last ten or so on the contour …
-    double near_time_us_ = 0;  // … and the time they took
-    double slack_us_ = 0;      // silence after which the density is told anew
-    std::int64_t t_us_ = -1;   // before the first event
+    double near_count_ = 0;     // the last ten or so on the contour, …
+    double near_began_us_ = 0;  // … and when they began
+    double slack_us_ = 0;       // time of them after which the density is told anew
+    std::int64_t due_us_ = 0;   // not before it is there anything to catch up with
+    std::int64_t t_us_ = 0;
+    bool has_begun_ = false;  // with the first event
     std::int64_t folded_us_ = 0;
     std::int64_t fold_at_us_ = 0;
     std::array<double, 2> standing_density_{floor, floor};

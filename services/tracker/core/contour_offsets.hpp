@@ -30,6 +30,12 @@ class ContourOffsets {
     /// Nothing is known.
     void restart();
 
+    /// The object is so fast now.
+    void set_speed(double speed_px_s) {
+        const double fast = speed_px_s / fast_px_s;
+        noise_of_speed_px2_ = noise_px2 * (1 + fast * fast);
+    }
+
     [[nodiscard]] double of(std::int32_t piece) const {
         return told_share_ * mean_px_[static_cast<std::size_t>(piece)];
     }
@@ -38,12 +44,9 @@ class ContourOffsets {
     /// taken into account; share: 0 … 1, that it is the object's. The faster it moves, the more of
     /// the distance is what a pixel's delays make of the speed. (A point has no side: of one, every
     /// event is beside it the same way.)
-    [[gnu::always_inline]] void learn(std::int32_t piece, double residual_px, double share,
-                                      double speed_px_s) {
+    [[gnu::always_inline]] void learn(std::int32_t piece, double residual_px, double share) {
         const auto i = static_cast<std::size_t>(piece);
-        const double fast = speed_px_s / fast_px_s;
-        const double gain =
-            share * variance_px2_[i] / (variance_px2_[i] + noise_px2 * (1 + fast * fast));
+        const double gain = share * variance_px2_[i] / (variance_px2_[i] + noise_of_speed_px2_);
         mean_px_[i] += gain * (residual_px + (told_share_ - 1) * mean_px_[i]);
         variance_px2_[i] = std::max((1 - gain) * variance_px2_[i], least_sigma_px * least_sigma_px);
         if (++learnt_ == settled_every_) settle();
@@ -75,6 +78,7 @@ class ContourOffsets {
     std::vector<double> mean_px_;
     std::vector<double> variance_px2_;
     double told_share_ = 0;
+    double noise_of_speed_px2_ = noise_px2;
     int learnt_ = 0;
     int settled_every_ = 0;
 };

@@ -27,43 +27,56 @@ template <TransformKind kind>
                                                                        const Eigen::Matrix2d& a,
                                                                        const Eigen::Vector2d& q,
                                                                        double reach_px) {
+    ContourPlace place;
     CandidateGrid::Nearest nearest;
     if constexpr (kind == TransformKind::isometry || kind == TransformKind::similarity) {
         // What is nearest in the image is so in the model frame; the inverse of A is its transpose,
         // but for the scale.
-        Eigen::Vector2d x(a(0, 0) * q.x() + a(1, 0) * q.y(), a(0, 0) * q.y() - a(1, 0) * q.x());
+        double x = a(0, 0) * q.x() + a(1, 0) * q.y();
+        double y = a(0, 0) * q.y() - a(1, 0) * q.x();
         double scale2 = 1;
         if constexpr (kind == TransformKind::similarity) {
             scale2 = a(0, 0) * a(0, 0) + a(1, 0) * a(1, 0);
             x /= scale2;
+            y /= scale2;
         }
-        nearest = pieces.nearest(x.x(), x.y(), ModelMetric());
+        nearest = pieces.nearest(x, y, ModelMetric());
+        if (nearest.piece < 0) return place;
         nearest.squared_px *= scale2;
+        // As far from the piece's line as from any place of it: that is known first.
+        const Segment& segment = pieces.segment(nearest.piece);
+        place.r_px = segment.nx * (x - segment.ax) + segment.ny * (y - segment.ay);
+        place.n << a(0, 0) * segment.nx - a(1, 0) * segment.ny,
+            a(1, 0) * segment.nx + a(0, 0) * segment.ny;
+        if constexpr (kind == TransformKind::similarity) {
+            const double scale = std::sqrt(scale2);
+            place.r_px *= scale;
+            place.n /= scale;
+        }
     } else {
         const double per_area = 1 / (a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
         nearest = pieces.nearest((a(1, 1) * q.x() - a(0, 1) * q.y()) * per_area,
                                  (a(0, 0) * q.y() - a(1, 0) * q.x()) * per_area, ImageMetric(a));
+        if (nearest.piece < 0) return place;
+        const Segment& segment = pieces.segment(nearest.piece);
+        const Eigen::Vector2d along = a * Eigen::Vector2d(segment.dx, segment.dy);
+        const double per_length = 1 / along.norm();
+        place.n << along.y() * per_length, -along.x() * per_length;
+        place.r_px = place.n.dot(q - a * Eigen::Vector2d(segment.ax, segment.ay));
     }
-    ContourPlace place;
-    if (nearest.piece < 0 || !(nearest.squared_px <= reach_px * reach_px)) return place;
+    if (!(nearest.squared_px <= reach_px * reach_px)) return place;
     place.piece = nearest.piece;
     place.squared_px = nearest.squared_px;
     const Segment& segment = pieces.segment(nearest.piece);
     place.model_px << segment.ax + nearest.foot * segment.dx,
         segment.ay + nearest.foot * segment.dy;
     place.arm_px = a * place.model_px;
-    const Eigen::Vector2d off = q - place.arm_px;
     if (!(segment.per_length2 > 0)) {
-        const double distance_px = std::sqrt(place.squared_px);
-        place.n = distance_px > 1e-9 ? Eigen::Vector2d(off / distance_px) : Eigen::Vector2d(1, 0);
-    } else if constexpr (kind == TransformKind::isometry) {
-        place.n = a * Eigen::Vector2d(segment.nx, segment.ny);
-    } else {
-        const Eigen::Vector2d along = a * Eigen::Vector2d(segment.dx, segment.dy);
-        const double per_length = 1 / along.norm();
-        place.n << along.y() * per_length, -along.x() * per_length;
+        // A point: from it to the event.
+        place.r_px = std::sqrt(place.squared_px);
+        place.n = place.r_px > 1e-9 ? Eigen::Vector2d((q - place.arm_px) / place.r_px)
+                                    : Eigen::Vector2d(1, 0);
     }
-    place.r_px = place.n.dot(off);
     return place;
 }
 

@@ -28,21 +28,27 @@ class EdgeContrast {
     void restart(std::size_t pieces) {
         pieces_.assign(pieces, Counts{});
         usual_share_ = events_ = {};
+        of_speed_ = of_width;
     }
 
     /// How much earlier the events of this piece come than those of the usual edge of a polarity
     /// (OFF 0, ON 1), beside what lies between its first and subsequent leads; nothing while little
     /// is known of it.
-    [[nodiscard]] double earlier(std::int32_t piece, int polarity, double speed_px_s) const {
+    [[nodiscard]] double earlier(std::int32_t piece, int polarity) const {
         const Counts& counts = pieces_[static_cast<std::size_t>(piece)];
         const double usual_share = usual_share_[static_cast<std::size_t>(polarity)];
+        return of_speed_ * counts.per_event * (counts.subsequent - counts.events * usual_share);
+    }
+
+    /// The object is so fast now.
+    void set_speed(double speed_px_s) {
         const double fast = speed_px_s / fast_px_s;
-        return of_width * (counts.subsequent - counts.events * usual_share) /
-               ((counts.events + few_events) * (1 + fast * fast));
+        of_speed_ = of_width / (1 + fast * fast);
     }
 
     /// An event of this piece that is the object's with probability `share`.
-    void count(std::int32_t piece, int polarity, bool is_subsequent, double share) {
+    [[gnu::always_inline]] void count(std::int32_t piece, int polarity, bool is_subsequent,
+                                      double share) {
         const auto i = static_cast<std::size_t>(polarity);
         events_[i] = std::min(events_[i] + share, most_events_of_all);
         if (events_[i] > 0) {
@@ -50,10 +56,12 @@ class EdgeContrast {
         }
         Counts& counts = pieces_[static_cast<std::size_t>(piece)];
         counts.events += share;
-        if (is_subsequent) counts.subsequent += share;
-        if (counts.events < most_events) return;
-        counts.events /= 2;
-        counts.subsequent /= 2;
+        counts.subsequent += is_subsequent ? share : 0;
+        if (counts.events >= most_events) {
+            counts.events /= 2;
+            counts.subsequent /= 2;
+        }
+        counts.per_event = 1 / (counts.events + few_events);
     }
 
  private:
@@ -66,8 +74,10 @@ class EdgeContrast {
     struct Counts {
         double events = 0;
         double subsequent = 0;
+        double per_event = 1 / few_events;
     };
     std::vector<Counts> pieces_;
+    double of_speed_ = of_width;
     std::array<double, 2> usual_share_{};  // OFF, ON
     std::array<double, 2> events_{};
 };

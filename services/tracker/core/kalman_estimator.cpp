@@ -49,6 +49,7 @@ KalmanEstimator<kind>::KalmanEstimator(const Contour& contour, const ObjectParam
       bend_(contour_),
       offsets_(contour_, kind),
       watch_(contour_) {
+    set_parameters(parameters);
     restart({}, {});
 }
 
@@ -72,12 +73,39 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     noise_.restart();
     most_pose_sigma_px_ = most_pose_sigma_px;
     residual_px_ = 0.5;
-    speed_px_s_ = 0;
     t_us_ = -1;
-    unspread_s_ = 0;
     way_begin_ = pose;
-    contour_.fit(pose.a, Clutter::far_to_px + 1);
-    sampled_for_area_ = 0;
+    sampled_for_area_ = keeps_its_size ? sampled_for_area_ : 0;
+    lay_out();
+    begin_anew();
+}
+
+// Nothing is known of how it goes: what depends on it is asked for with the next event.
+template <TransformKind kind>
+void KalmanEstimator<kind>::begin_anew() {
+    set_speed(0);
+    unspread_s_ = 0;
+    spread_after_s_ = 0;
+    find_silent_way();
+}
+
+template <TransformKind kind>
+void KalmanEstimator<kind>::set_speed(double speed_px_s) {
+    speed_px_s_ = speed_px_s;
+    same_edge_us_ = 1e6 * same_edge_px / std::max(speed_px_s, 1e-3);
+    contrast_.set_speed(speed_px_s);
+    offsets_.set_speed(speed_px_s);
+}
+
+// Lookups and what is measured of the contour are good for the pose.
+template <TransformKind kind>
+void KalmanEstimator<kind>::lay_out() {
+    const Eigen::Matrix2d& a = filter_.pose().a;
+    contour_.fit(a, Clutter::far_to_px + 1);
+    const double area = a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0);
+    if (std::abs(area - sampled_for_area_) < 0.3 * sampled_for_area_) return;
+    clutter_.sample(contour_, a);
+    sampled_for_area_ = area;
 }
 
 template <TransformKind kind>
@@ -97,11 +125,14 @@ void KalmanEstimator<kind>::resume(std::int64_t t_us, const Pose& pose, const Ve
     way_begin_ = pose;
     t_us_ = t_us;
     unspread_s_ = 0;
+    spread_after_s_ = 0;
 }
 
 template <TransformKind kind>
 void KalmanEstimator<kind>::set_parameters(const ObjectParameters& parameters) {
     parameters_ = parameters;
+    tells_contrast_ = parameters.tells_contrast >= 0.5;
+    learns_offsets_ = parameters.learns_offsets >= 0.5;
 }
 
 template <TransformKind kind>
@@ -114,6 +145,7 @@ void KalmanEstimator<kind>::measure_size() {
     size_.gyration_px = gyration_px * scale;
     size_.per_gyration2 = 1 / (gyration_px * gyration_px * area);
     size_.extent_px = contour_.radius_px() * a.norm();
+    size_.near_px = size_.extent_px + Clutter::far_to_px + 1;
 }
 
 template <TransformKind kind>
@@ -149,15 +181,10 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     }
     // It is told to move until so many events that should have come have not.
     unspread_s_ += dt_s;
-    const double missed_of_px_s = clock_.events_per_px(effective_length_px()) * dt_s;
-    const double missed2 = missed_of_px_s * missed_of_px_s * own_speed2();
-    constexpr double silent2 = silent_events * silent_events;
-    filter_.advance(missed2 > silent2 ? dt_s * std::sqrt(silent2 / missed2) : dt_s);
-    // Of a way, or of what the way is uncertain by: at a start nobody knows the speed.
-    const double way2 =
-        unspread_s_ * unspread_s_ *
-        (speed_px_s_ * speed_px_s_ + filter_.speed_variance(size_.gyration_px * size_.gyration_px));
-    if (stood_still || unspread_s_ > spread_s || way2 > spread_way_px * spread_way_px) {
+    const double way2_px2 = dt_s * dt_s * own_speed2();
+    filter_.advance(way2_px2 > silent_way2_px2_ ? dt_s * std::sqrt(silent_way2_px2_ / way2_px2)
+                                                : dt_s);
+    if (stood_still || unspread_s_ > spread_after_s_) {
         spread(unspread_s_);
         unspread_s_ = 0;
     }
@@ -177,7 +204,7 @@ void KalmanEstimator<kind>::spread(double dt_s) {
     const double told_px_s = clock_.speed_px_s(length_px);
     const double own_px_s = std::sqrt(own_speed2());
     const double at_most = std::max(std::min(own_px_s, 2 * told_px_s), told_px_s);
-    speed_px_s_ = std::sqrt(at_most * at_most + still_px_s * still_px_s);
+    set_speed(std::sqrt(at_most * at_most + still_px_s * still_px_s));
     // What shows of it by half tells by half where it turns.
     const double q =
         kappa * kappa * speed_px_s_ * speed_px_s_ * speed_px_s_ * visible_share_ * visible_share_;
@@ -210,6 +237,17 @@ void KalmanEstimator<kind>::spread(double dt_s) {
     for (int i = 0; i < Filter::leads; ++i) {
         filter_.add_variance(2 * Filter::dof + i, lead_drift_px2_s * dt_s);
     }
+    // Of a way, or of what the way is uncertain by: at a start nobody knows the speed.
+    const double may_go_px_s = std::sqrt(
+        speed_px_s_ * speed_px_s_ + filter_.speed_variance(size_.gyration_px * size_.gyration_px));
+    spread_after_s_ = std::min(spread_s, spread_way_px / may_go_px_s);
+    find_silent_way();
+}
+
+template <TransformKind kind>
+void KalmanEstimator<kind>::find_silent_way() {
+    const double way_px = silent_events / clock_.events_per_px(effective_length_px());
+    silent_way2_px2_ = way_px * way_px;
 }
 
 template <TransformKind kind>
@@ -223,6 +261,7 @@ void KalmanEstimator<kind>::look_out(std::int64_t t_us) {
                     step_of(sighted_sigma_px, sighted_sigma_px * per_px),
                     step_of(sighted_speed_sigma_px_s, sighted_speed_sigma_px_s * per_px));
     unspread_s_ = 0;
+    spread_after_s_ = 0;
     // It did not go this way event by event.
     clock_.begin_way();
     way_begin_ = to->pose;
@@ -231,41 +270,31 @@ void KalmanEstimator<kind>::look_out(std::int64_t t_us) {
 // The pose of the last near event and how far the object can have gone since tell.
 template <TransformKind kind>
 double KalmanEstimator<kind>::reach_px(std::int64_t t_us) const {
-    const double gone_s = t_us_ < 0 ? 0 : static_cast<double>(t_us - t_us_) * 1e-6;
-    return size_.extent_px + Clutter::far_to_px + 1 + 2 * speed_px_s_ * gone_s;
+    return size_.near_px + 2e-6 * speed_px_s_ * static_cast<double>(t_us - t_us_);
 }
 
 template <TransformKind kind>
 double KalmanEstimator<kind>::lead_px(std::int32_t piece, int lead) const {
     const auto& leads_px = filter_.lead_px();
-    if (parameters_.tells_contrast < 0.5) return leads_px(lead);
+    if (!tells_contrast_) return leads_px(lead);
     const int first = lead & ~1;
     const double earlier_px =
-        contrast_.earlier(piece, first / 2, speed_px_s_) * (leads_px(first) - leads_px(first + 1));
+        contrast_.earlier(piece, first / 2) * (leads_px(first) - leads_px(first + 1));
     return std::clamp(leads_px(lead) + earlier_px, least_lead_px, most_lead_px);
 }
 
 template <TransformKind kind>
 const Approach* KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_same_us) {
+    Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - filter_.pose().t_px;
     const double within_px = reach_px(event.t_us);
-    if ((Eigen::Vector2d(event.x, event.y) - filter_.pose().t_px).squaredNorm() >
-        within_px * within_px) {
-        return nullptr;
-    }
+    if (q.squaredNorm() > within_px * within_px) return nullptr;
     predict_to(event.t_us);
     const Pose& pose = filter_.pose();
-    if constexpr (kind != TransformKind::isometry) {
-        contour_.fit(pose.a, Clutter::far_to_px + 1);
-    }
-    const double area = pose.a(0, 0) * pose.a(1, 1) - pose.a(0, 1) * pose.a(1, 0);
-    if (!(std::abs(area - sampled_for_area_) < 0.3 * sampled_for_area_)) {
-        clutter_.sample(contour_, pose.a);
-        sampled_for_area_ = area;
-    }
+    if constexpr (!keeps_its_size) lay_out();
     clutter_.reach(event.t_us);
     if (watch_.is_due(event.t_us)) look_out(event.t_us);
     if (watch_.is_on()) watch_.see(event.x, event.y);
-    Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - pose.t_px;
+    q = Eigen::Vector2d(event.x, event.y) - pose.t_px;
     if constexpr (is_bent) {
         // To where it would be, were the model not bent.
         if (!bend_.is_flat()) q -= pose.a * bend_.shift(pose.a.inverse() * q);
@@ -276,14 +305,14 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, std::int64_t
     const double past_end2 = place.squared_px - place.r_px * place.r_px;
     if (past_end2 > Clutter::overshoot_px * Clutter::overshoot_px) return nullptr;
 
-    const Step j = M::along(place.n, place.arm_px, pose.a, place.model_px);
-    const Segment& segment = contour_.pieces().segment(place.piece);
-    const Eigen::Vector2d middle(segment.ax + segment.dx / 2, segment.ay + segment.dy / 2);
     // A contour that lies where events came from has their leads in it.
-    const double h = contour_.is_of_events()
-                         ? 0
-                         : backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
-    const bool subsequent = static_cast<double>(since_same_us) * 1e-6 * speed_px_s_ < same_edge_px;
+    const Segment& segment = contour_.pieces().segment(place.piece);
+    double h = 0;
+    if (!contour_.is_of_events()) {
+        const Eigen::Vector2d middle(segment.ax + segment.dx / 2, segment.ay + segment.dy / 2);
+        h = backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
+    }
+    const bool subsequent = static_cast<double>(since_same_us) < same_edge_us_;
     const int lead = 2 * (event.polarity & 1) + (subsequent ? 1 : 0);
     const double r_px = place.r_px - lead_px(place.piece, lead) * h - offsets_.of(place.piece);
     const double distance_px = std::abs(r_px);
@@ -292,52 +321,62 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, std::int64_t
     }
     if (distance_px > parameters_.gate_px) return nullptr;
     clutter_.pass_near();
+    const Step j = M::along(place.n, place.arm_px, pose.a, place.model_px);
     measured_.row = filter_.row(j, lead, h);
     if constexpr (is_bent) {
         measured_.along_bend = bend_.along(pose.a.transpose() * place.n, place.model_px);
     }
     measured_.r_px = r_px;
-    measured_.piece = place.piece;
     measured_.has_side = segment.per_length2 > 0;
     measured_.lead = lead;
     measured_.told = noise_.at(r_px, measured_.row.h_p_h, subsequent);
-    measured_.clutter = clutter_.density(place.piece, r_px);
-    near_ = {r_px * r_px, measured_.clutter, r_px * r_px, place.piece};
+    near_ = {r_px * r_px, clutter_.density(place.piece, r_px), r_px * r_px, place.piece};
     return &near_;
 }
 
 template <TransformKind kind>
 bool KalmanEstimator<kind>::take(double weight) {
     const double r = measured_.r_px;
-    const double likelihood = measured_.told.likelihood();
-    const double share = weight * likelihood / (likelihood + measured_.clutter);
+    const MeasurementNoise::Told& told = measured_.told;
+    const double likelihood = told.likelihood();
+    const double share = weight * likelihood / (likelihood + near_.clutter);
     const bool is_told = clutter_.is_measured();
-    clutter_.count_near(measured_.piece, share);
+    clutter_.count_near(near_.piece, share);
     if (!is_told || stands_still_ || share < least_share) return false;
 
-    const double noise_px2 = measured_.told.variance_px2();
-    filter_.correct(measured_.row, r, measured_.row.h_p_h + noise_px2, share, watch_.is_on());
+    const double per_variance =
+        weight * told.share_per_variance(near_.clutter, measured_.row.h_p_h);
+    if (watch_.is_on()) {
+        const double doubt = (1 / share - 1) * r * r * per_variance;
+        filter_.correct(measured_.row, r, per_variance, 1 - doubt);
+    } else {
+        filter_.correct(measured_.row, r, per_variance);
+    }
+    filter_.limit_leads(least_lead_px, most_lead_px);
+    if constexpr (!keeps_its_size) measure_size();
     if constexpr (is_bent) {
-        bend_.correct(measured_.along_bend, r, measured_.row.h_p_h + noise_px2, share);
+        bend_.correct(measured_.along_bend, r, measured_.row.h_p_h + told.variance_px2(), share);
     }
-    if (parameters_.learns_offsets >= 0.5 && measured_.has_side) {
-        offsets_.learn(measured_.piece, r, share, speed_px_s_);
-    }
-    contrast_.count(measured_.piece, measured_.lead / 2, measured_.lead % 2 == 1, share);
+    learn(r, share);
+    most_pose_sigma_px_ =
+        most_pose_sigma_px + bound_settles * (most_pose_sigma_px_ - most_pose_sigma_px);
+    return true;
+}
+
+// What the event says beside where the object is.
+template <TransformKind kind>
+[[gnu::always_inline]] inline void KalmanEstimator<kind>::learn(double r_px, double share) {
+    clock_.count(share);
+    noise_.learn(r_px, measured_.told, share);
+    residual_px_ += 0.01 * share * (std::abs(r_px) - residual_px_);
+    if (learns_offsets_ && measured_.has_side) offsets_.learn(near_.piece, r_px, share);
+    contrast_.count(near_.piece, measured_.lead / 2, measured_.lead % 2 == 1, share);
     if (lead_prior_.count(measured_.lead, share)) {
         filter_.tell_leads(lead_prior_.weights(), lead_prior_.held_px(), LeadPrior::held_sigma_px);
         filter_.tell_leads(lead_prior_.apart_weights(), lead_prior_.apart_px(),
                            LeadPrior::apart_sigma_px);
+        filter_.limit_leads(least_lead_px, most_lead_px);
     }
-    filter_.limit_leads(least_lead_px, most_lead_px);
-    if constexpr (kind != TransformKind::isometry) measure_size();
-    noise_.learn(r, measured_.told, share);
-    residual_px_ += 0.01 * share * (std::abs(r) - residual_px_);
-
-    most_pose_sigma_px_ =
-        most_pose_sigma_px + bound_settles * (most_pose_sigma_px_ - most_pose_sigma_px);
-    clock_.count(share);
-    return true;
 }
 
 template <TransformKind kind>
@@ -346,11 +385,10 @@ void KalmanEstimator<kind>::describe(std::int64_t t_us, PoseRecord& record) cons
     Step twist = filter_.twist();
     if (t_us_ >= 0) {
         const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
-        const double own_px_s = std::sqrt(twist.template head<2>().squaredNorm() +
-                                          M::turning_speed2(twist, size_.gyration_px));
-        const double expected_hz = clock_.events_per_px(effective_length_px()) * own_px_s;
         // Coasts as long as silence does not tell that it stands still.
-        const double moving_s = expected_hz > 0 ? std::min(dt_s, silent_events / expected_hz) : 0;
+        const double way2_px2 = dt_s * dt_s * own_speed2();
+        const double moving_s =
+            way2_px2 > silent_way2_px2_ ? dt_s * std::sqrt(silent_way2_px2_ / way2_px2) : dt_s;
         if (moving_s > 0) Filter::move(moving_s, record.pose, twist);
     }
     record.velocity = M::velocity(twist, record.pose.a);

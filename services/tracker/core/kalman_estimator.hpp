@@ -53,6 +53,8 @@ class KalmanEstimator : public Estimator {
     using Step = typename M::Step;
 
     static constexpr bool is_bent = kind == TransformKind::full_affine;
+    /// Lookups and areas are as they were for every pose of an isometry.
+    static constexpr bool keeps_its_size = kind == TransformKind::isometry;
 
     /// The same in x and in y, and in every other component.
     static Step step_of(double place, double about) {
@@ -60,7 +62,13 @@ class KalmanEstimator : public Estimator {
         step.template head<2>().setConstant(place);
         return step;
     }
+    void begin_anew();
+    void set_speed(double speed_px_s);
+    void lay_out();
     void predict_to(std::int64_t t_us);
+    /// A way on which so many events should have come that, had it gone it, …
+    void find_silent_way();
+    void learn(double r_px, double share);
     /// What the filter knows, dt_s after it was told last.
     void spread(double dt_s);
     /// Of the contour, as the filter has it, in the mean; squared.
@@ -83,10 +91,8 @@ class KalmanEstimator : public Estimator {
     struct Measurement {
         typename Filter::Row row;
         double r_px;
-        std::int32_t piece;
         int lead;
         MeasurementNoise::Told told;
-        double clutter;
         Eigen::Vector2d along_bend;
         bool has_side = false;
     };
@@ -96,7 +102,8 @@ class KalmanEstimator : public Estimator {
         double length_px = 0;  ///< Of it, 0.6: of one that runs every way, what faces the motion.
         double gyration_px = 0;
         double per_gyration2 = 0;  ///< 1/gyration², 1/px²
-        double extent_px = 0;      ///< No point is farther from T.
+        double extent_px = 0;      ///< No point is farther from T, …
+        double near_px = 0;        ///< … and nothing that is near it.
     };
 
     Contour contour_;
@@ -118,8 +125,13 @@ class KalmanEstimator : public Estimator {
     LeadPrior lead_prior_;
     double visible_share_ = 1;
     double most_pose_sigma_px_ = 0;
-    double speed_px_s_ = 0;  // u, when the filter was spread last
-    double unspread_s_ = 0;  // since then
+    double speed_px_s_ = 0;       // u, when the filter was spread last
+    double unspread_s_ = 0;       // since then
+    double spread_after_s_ = 0;   // to be again
+    double silent_way2_px2_ = 0;  // … it would have been heard of; squared
+    double same_edge_us_ = 0;     // a pixel's events of one edge follow each other within
+    bool tells_contrast_ = true;
+    bool learns_offsets_ = true;
     double residual_px_ = 0.5;
     double sampled_for_area_ = 0;
     std::int64_t t_us_ = -1;  // of the state; -1: before the first event

@@ -74,15 +74,21 @@ struct Motion {
         }
     }
 
-    /// Turns a rotation. What rounding has taken it off the circle is made good with the next
-    /// turn, by one Newton step of 1/sqrt: so nobody waits for it.
+    /// Turns a rotation. What rounding takes off the circle is made good with the
+    /// next turn, by one Newton step of 1/sqrt: so nobody waits for it.
     static void turn(double angle_rad, Eigen::Matrix2d& a) {
         const double cosine = a(0, 0);
         const double sine = a(1, 0);
         const double onto = 1.5 - 0.5 * (cosine * cosine + sine * sine);
-        const auto [s, c] = on_circle(angle_rad);
         const double x = onto * cosine;
         const double y = onto * sine;
+        // Of the smallest, which are those of nearly every event, to the third order.
+        constexpr double smallest_rad = 0.01;
+        const double square = angle_rad * angle_rad;
+        const auto [s, c] =
+            square < smallest_rad * smallest_rad
+                ? OnCircle{angle_rad - angle_rad * (1.0 / 6) * square, 1 - 0.5 * square}
+                : on_circle(angle_rad);
         const double turned_x = c * x - s * y;
         const double turned_y = s * x + c * y;
         a << turned_x, -turned_y, turned_y, turned_x;
@@ -162,8 +168,8 @@ struct Motion {
         double s, c;
     };
     static OnCircle on_circle(double angle) {
-        const double angle2 = angle * angle;
-        return {angle - angle * angle2 * (1.0 / 6), 1 - angle2 * (0.5 - angle2 * (1.0 / 24))};
+        const double square = angle * angle;
+        return {angle - angle * square * (1.0 / 6), 1 - square * (0.5 - square * (1.0 / 24))};
     }
     static double grown(double log_scale) { return 1 + log_scale * (1 + log_scale / 2); }
 };

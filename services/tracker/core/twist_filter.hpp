@@ -89,18 +89,19 @@ class TwistFilter {
         return row;
     }
 
-    /// Corrects by the residual r with the given total variance; weight 0 … 1 scales gain and
-    /// reduction: the measurement is one of this state with that probability. Where many are not,
-    /// that it may or may not be spreads the estimate (Bar-Shalom's probabilistic data
-    /// association): without that, events of noise alone would make it sure of itself.
-    [[gnu::always_inline]] void correct(const Row& row, double residual_px, double variance_px2,
-                                        double weight, bool is_doubtful = false) {
-        State gain = row.p_h * (weight / variance_px2);
-        M::apply(gain.template head<dof>() * residual_px, pose_);
-        twist_ += gain.template segment<dof>(dof) * residual_px;
-        lead_px_ += gain.template tail<leads>() * residual_px;
-        if (is_doubtful) gain *= 1 - (1 - weight) * residual_px * residual_px / variance_px2;
-        reduce(gain, row.p_h, std::make_integer_sequence<int, size>());
+    /// Corrects by the residual r. `per_variance`: a weight 0 … 1 over the total variance; the
+    /// weight scales gain and reduction: the measurement is one of this state with that
+    /// probability. `reduced`: the part of the reduction that remains. Where many are none, that
+    /// it may or may not be spreads the estimate (Bar-Shalom's probabilistic data association):
+    /// without that, events of noise alone would make it sure of itself.
+    [[gnu::always_inline]] void correct(const Row& row, double residual_px, double per_variance,
+                                        double reduced = 1) {
+        const double step = per_variance * residual_px;
+        M::apply(row.p_h.template head<dof>() * step, pose_);
+        twist_ += row.p_h.template segment<dof>(dof) * step;
+        lead_px_ += row.p_h.template tail<leads>() * step;
+        reduce(row.p_h * (per_variance * reduced), row.p_h,
+               std::make_integer_sequence<int, size>());
     }
 
     /// Corrects by what is known of the leads besides the events: weights · leads = value ± sigma.
@@ -111,7 +112,7 @@ class TwistFilter {
         p_h.template tail<leads>() =
             covariance_.template bottomRightCorner<leads, leads>() * weights;
         const double variance = weights.dot(p_h.template tail<leads>()) + sigma_px * sigma_px;
-        correct({p_h, variance}, value_px - weights.dot(lead_px_), variance, 1);
+        correct({p_h, variance}, value_px - weights.dot(lead_px_), 1 / variance);
     }
 
     /// Shrinks row and column i where its variance exceeds the bound.

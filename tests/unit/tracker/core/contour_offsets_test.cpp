@@ -15,10 +15,11 @@ ContourOffsets learnt_from(const Contour& contour, TransformKind kind,
                            const std::vector<double>& off_px, int rounds,
                            double speed_px_s = slow_px_s) {
     ContourOffsets offsets(contour, kind);
+    offsets.set_speed(speed_px_s);
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t i = 0; i < off_px.size(); ++i) {
             const auto piece = static_cast<std::int32_t>(i);
-            offsets.learn(piece, off_px[i] - offsets.of(piece), 1, speed_px_s);
+            offsets.learn(piece, off_px[i] - offsets.of(piece), 1);
         }
     }
     return offsets;

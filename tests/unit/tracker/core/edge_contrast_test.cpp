@@ -20,19 +20,24 @@ EdgeContrast of_a_weak_and_a_strong_edge(int pixels) {
     return contrast;
 }
 
+double earlier_at(double speed_px_s, EdgeContrast contrast, std::int32_t piece, int polarity) {
+    contrast.set_speed(speed_px_s);
+    return contrast.earlier(piece, polarity);
+}
+
 TEST(EdgeContrast, has_the_events_of_strong_edges_earlier_and_those_of_weak_ones_later) {
     const EdgeContrast contrast = of_a_weak_and_a_strong_edge(50'000);
     // Shares 1/2 and 4/5 of subsequent events, 5/7 of all: of it, 3/2 of the way between the leads.
-    EXPECT_NEAR(contrast.earlier(0, polarity_on, 0), 1.5 * (1.0 / 2 - 5.0 / 7), 0.02);
-    EXPECT_NEAR(contrast.earlier(1, polarity_on, 0), 1.5 * (4.0 / 5 - 5.0 / 7), 0.02);
+    EXPECT_NEAR(earlier_at(0, contrast, 0, polarity_on), 1.5 * (1.0 / 2 - 5.0 / 7), 0.02);
+    EXPECT_NEAR(earlier_at(0, contrast, 1, polarity_on), 1.5 * (4.0 / 5 - 5.0 / 7), 0.02);
 }
 
 TEST(EdgeContrast, says_nothing_of_an_edge_without_events_and_little_after_a_few) {
-    EXPECT_EQ(of_a_weak_and_a_strong_edge(1000).earlier(2, polarity_on, of_traffic_px_s), 0);
+    EXPECT_EQ(earlier_at(of_traffic_px_s, of_a_weak_and_a_strong_edge(1000), 2, polarity_on), 0);
     EdgeContrast contrast = of_a_weak_and_a_strong_edge(1000);
     contrast.count(2, polarity_on, true, 1);
-    EXPECT_GT(contrast.earlier(2, polarity_on, of_traffic_px_s), 0);
-    EXPECT_LT(contrast.earlier(2, polarity_on, of_traffic_px_s), 0.02);
+    EXPECT_GT(earlier_at(of_traffic_px_s, contrast, 2, polarity_on), 0);
+    EXPECT_LT(earlier_at(of_traffic_px_s, contrast, 2, polarity_on), 0.02);
 }
 
 TEST(EdgeContrast, finds_nothing_where_all_edges_are_alike) {
@@ -41,8 +46,8 @@ TEST(EdgeContrast, finds_nothing_where_all_edges_are_alike) {
     for (int i = 0; i < 3000; ++i) {
         for (int piece = 0; piece < 2; ++piece) contrast.count(piece, polarity_on, i % 3 > 0, 1);
     }
-    EXPECT_NEAR(contrast.earlier(0, polarity_on, of_traffic_px_s), 0, 0.01);
-    EXPECT_NEAR(contrast.earlier(1, polarity_on, of_traffic_px_s), 0, 0.01);
+    EXPECT_NEAR(earlier_at(of_traffic_px_s, contrast, 0, polarity_on), 0, 0.01);
+    EXPECT_NEAR(earlier_at(of_traffic_px_s, contrast, 1, polarity_on), 0, 0.01);
 }
 
 TEST(EdgeContrast, is_of_each_polarity_by_itself) {
@@ -53,14 +58,16 @@ TEST(EdgeContrast, is_of_each_polarity_by_itself) {
         contrast.count(0, 0, false, 1);
         contrast.count(1, polarity_on, i % 3 > 0, 1);
     }
-    EXPECT_NEAR(contrast.earlier(0, 0, of_traffic_px_s), 0, 0.01);
-    EXPECT_NEAR(contrast.earlier(1, polarity_on, of_traffic_px_s), 0, 0.01);
+    EXPECT_NEAR(earlier_at(of_traffic_px_s, contrast, 0, 0), 0, 0.01);
+    EXPECT_NEAR(earlier_at(of_traffic_px_s, contrast, 1, polarity_on), 0, 0.01);
 }
 
 TEST(EdgeContrast, counts_less_the_faster_the_object_is) {
     const EdgeContrast contrast = of_a_weak_and_a_strong_edge(1000);
-    EXPECT_GT(contrast.earlier(1, polarity_on, 40), 0.95 * contrast.earlier(1, polarity_on, 0));
-    EXPECT_LT(contrast.earlier(1, polarity_on, 3000), 0.02 * contrast.earlier(1, polarity_on, 0));
+    EXPECT_GT(earlier_at(40, contrast, 1, polarity_on),
+              0.95 * earlier_at(0, contrast, 1, polarity_on));
+    EXPECT_LT(earlier_at(3000, contrast, 1, polarity_on),
+              0.02 * earlier_at(0, contrast, 1, polarity_on));
 }
 
 TEST(EdgeContrast, forgets_what_was_long_ago) {
@@ -70,7 +77,7 @@ TEST(EdgeContrast, forgets_what_was_long_ago) {
         contrast.count(0, polarity_on, i < 10'000, 1);
         contrast.count(1, polarity_on, i % 2 == 0, 1);
     }
-    EXPECT_LT(contrast.earlier(0, polarity_on, of_traffic_px_s), -0.3);
+    EXPECT_LT(earlier_at(of_traffic_px_s, contrast, 0, polarity_on), -0.3);
 }
 
 TEST(EdgeContrast, knows_nothing_after_a_restart) {
@@ -78,14 +85,14 @@ TEST(EdgeContrast, knows_nothing_after_a_restart) {
     contrast.restart(3);
     EdgeContrast fresh;
     fresh.restart(3);
-    EXPECT_EQ(contrast.earlier(0, polarity_on, of_traffic_px_s), 0);
+    EXPECT_EQ(earlier_at(of_traffic_px_s, contrast, 0, polarity_on), 0);
     for (EdgeContrast* one : {&contrast, &fresh}) {
         for (int i = 0; i < 10; ++i) one->count(i % 2, polarity_on, i > 5, 1);
     }
-    EXPECT_EQ(contrast.earlier(0, polarity_on, of_traffic_px_s),
-              fresh.earlier(0, polarity_on, of_traffic_px_s));
-    EXPECT_EQ(contrast.earlier(1, polarity_on, of_traffic_px_s),
-              fresh.earlier(1, polarity_on, of_traffic_px_s));
+    EXPECT_EQ(earlier_at(of_traffic_px_s, contrast, 0, polarity_on),
+              earlier_at(of_traffic_px_s, fresh, 0, polarity_on));
+    EXPECT_EQ(earlier_at(of_traffic_px_s, contrast, 1, polarity_on),
+              earlier_at(of_traffic_px_s, fresh, 1, polarity_on));
 }
 
 }  // namespace

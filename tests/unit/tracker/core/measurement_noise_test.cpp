@@ -9,7 +9,7 @@ namespace pursuit::tracker {
 namespace {
 
 TEST(MeasurementNoise, tells_densities_that_integrate_to_one) {
-    const MeasurementNoise noise;
+    MeasurementNoise noise;
     for (const bool is_subsequent : {false, true}) {
         double sum = 0;
         for (double r_px = -20; r_px < 20; r_px += 0.01) {
@@ -20,18 +20,40 @@ TEST(MeasurementNoise, tells_densities_that_integrate_to_one) {
 }
 
 TEST(MeasurementNoise, takes_what_strays_for_the_tail) {
-    const MeasurementNoise noise;
+    MeasurementNoise noise;
     const auto near = noise.at(0.1, 0.02, false);
     const auto stray = noise.at(2.5, 0.02, false);
     EXPECT_GT(near.near_likelihood, 5 * near.tail_likelihood);
     EXPECT_LT(stray.near_likelihood, 0.01 * stray.tail_likelihood);
     // The measurement counts as the one or the other.
     EXPECT_NEAR(near.variance_px2(), near.near_px2, 0.2 * near.near_px2);
-    EXPECT_NEAR(stray.variance_px2(), stray.near_px2 + stray.tail_px2, 0.1 * stray.tail_px2);
+    EXPECT_NEAR(stray.variance_px2(), stray.far_px2, 0.1 * stray.far_px2);
+}
+
+TEST(MeasurementNoise, tells_the_share_of_the_object_over_the_variance_at_once) {
+    MeasurementNoise noise;
+    for (const double r_px : {0.0, 0.4, 1.7, 4.0}) {
+        for (const double clutter : {0.002, 0.1, 3.0}) {
+            const auto told = noise.at(r_px, 0.03, false);
+            const double share = told.likelihood() / (told.likelihood() + clutter);
+            EXPECT_NEAR(told.share_per_variance(clutter, 0.03) * (0.03 + told.variance_px2()),
+                        share, 1e-12);
+        }
+    }
+}
+
+TEST(MeasurementNoise, takes_the_state_s_uncertainty_into_account_as_soon_as_it_changes) {
+    MeasurementNoise noise;
+    // Within a tenth of the variance it is taken for what it was.
+    for (const double state_px2 : {0.01, 1.0, 0.02, 0.3, 0.01}) {
+        const double variance_px2 = state_px2 + 0.4 * 0.4;
+        EXPECT_NEAR(noise.at(0, state_px2, false).half_per_variance * 2 * variance_px2, 1, 0.1)
+            << state_px2;
+    }
 }
 
 TEST(MeasurementNoise, trusts_first_events_more_than_subsequent_ones) {
-    const MeasurementNoise noise;
+    MeasurementNoise noise;
     EXPECT_LT(noise.at(0, 0, false).near_px2, noise.at(0, 0, true).near_px2);
 }
 
@@ -65,7 +87,7 @@ TEST(MeasurementNoise, has_a_heavier_and_wider_tail_where_the_model_is_another_t
     for (int i = 0; i < 1000; ++i) noise.learn(4, noise.at(4, 0, false), 1);
     ASSERT_GT(noise.gain(), 5);
     const auto misfit = noise.at(4, 0, false);
-    EXPECT_GT(misfit.tail_px2, 2 * usual.tail_px2);
+    EXPECT_GT((misfit.far_px2 - misfit.near_px2), 2 * (usual.far_px2 - usual.near_px2));
     EXPECT_GT(misfit.tail_likelihood, usual.tail_likelihood);
 }
 

@@ -108,7 +108,7 @@ TYPED_TEST(MotionOf, is_filtered_as_full_matrices_would) {
         const auto row = filter.row(j, lead, 0.7);
         EXPECT_NEAR(row.h_p_h + 0.16, variance, 1e-9 * variance);
         p -= Full((p * h) * (p * h).transpose() / variance);
-        filter.correct(row, 0, variance, 1);
+        filter.correct(row, 0, 1 / variance);
     }
     EXPECT_LT((filter.covariance() - p).norm(), 1e-9 * p.norm());
     EXPECT_LT((filter.covariance() - filter.covariance().transpose()).norm(), 1e-9 * p.norm());
