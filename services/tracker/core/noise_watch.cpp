@@ -63,6 +63,12 @@ void NoiseWatch::tell_noise(const Clutter& clutter, double visible_share) {
 
 std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter,
                                       double visible_share, double gyration_px, double extent_px) {
+    // Among noise there is no silence. After one nothing is known of where it went meanwhile.
+    if (own.t_us > due_us_ + Lookout::every_us) {
+        lookout_.restart();
+        slow_.restart();
+        looks_ = plain_looks_ = sighted_looks_ = 0;
+    }
     due_us_ = own.t_us + Lookout::every_us;
     if (began_us_ < 0) began_us_ = own.t_us;
     const bool was_on = is_on_;

@@ -160,6 +160,23 @@ TEST(NoiseWatch, goes_with_an_object_that_creeps) {
     }
 }
 
+TEST(NoiseWatch, takes_nothing_that_stood_out_before_a_silence_for_sure_after_it) {
+    const Shape shape = test::arrow();
+    const auto truth = [](double t_us) { return pose_of(60 + 180e-6 * t_us, 120, 0.3); };
+    auto events =
+        outline_events(shape, truth, 0, 700'000, moving_per_ms, noise_per_ms(30), small_sensor, 11);
+    std::erase_if(events, [](const Event& e) { return e.t_us > 400'000 && e.t_us < 490'000; });
+    Tracker tracker = test::that_follows_an_arrow(truth(0));
+    test::Poses poses;
+    tracker.process(events, poses);
+    EXPECT_LT(rms_px(shape, poses.rows.back().record.pose, truth(699'000)), 1);
+    for (const auto& row : poses.rows) {
+        const auto t_us = static_cast<double>(row.record.t_us);
+        if (rms_px(shape, row.record.pose, truth(t_us)) < 10) continue;
+        EXPECT_LE(row.record.confidence, 0.5) << t_us;
+    }
+}
+
 TEST(NoiseWatch, holds_an_object_that_stands_for_seconds) {
     const Shape shape = test::arrow();
     const Pose there = pose_of(150, 120, 0.3);
