@@ -124,7 +124,8 @@ std::optional<Coast> NoiseWatch::look_slowly(const Coast& own, double gyration_p
     held_ = held_.at(own.t_us, longest_s);
     if (slow_.is_due()) {
         const SlowLookout::Sight sight = slow_.look(held_, gyration_px);
-        is_creeping_ = sight.z > (is_creeping_ ? still_creeping_z : creeping_z);
+        is_creeping_ =
+            is_creeping_ ? sight.z > still_creeping_z : sight.z > creeping_z && sight.is_all_around;
         if (is_creeping_) {
             held_ = sight.best;
         } else {

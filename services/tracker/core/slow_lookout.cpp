@@ -14,6 +14,12 @@ constexpr std::int64_t slice_us = 20'000;
 constexpr double seen_beside_px = 5;  // of the contour: from farther not all events are asked for
 constexpr std::array<float, 3> across_px{0.25F, 0.5F, 0.25F};  // what a place of the counts holds
 
+// Without the best quarter of the contour.
+constexpr std::size_t parts = 8;
+constexpr std::size_t best_parts = 2;
+constexpr double least_rest_z = 2;
+constexpr double least_rest_share = 0.3;
+
 // It makes no events while it stands, nor while it is too slow to make one in this time.
 constexpr std::size_t stopped_slices = 2;
 
@@ -197,11 +203,13 @@ void SlowLookout::weigh_overlap(const Pose& pose) {
     sample_variance_ = std::max(squares / static_cast<double>(samples_.size()), of_a_sample);
 }
 
-void SlowLookout::add_slice(std::size_t slice, const Coast& then, Sums& sums) const {
+void SlowLookout::add_slice(std::size_t slice, const Coast& then, std::size_t first,
+                            std::size_t end, Sums& sums) const {
     const Eigen::Matrix2d& a = then.pose.a;
     const double scale = std::sqrt(std::abs(a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0)));
     double weights2 = 0;
-    for (const ContourSample& sample : samples_) {
+    for (std::size_t k = first; k < end; ++k) {
+        const ContourSample& sample = samples_[k];
         const Eigen::Vector2d arm = a * sample.at_px;
         // The cofactors of A turn what is across, and make it longer by the scale or so.
         const Eigen::Vector2d n(a(1, 1) * sample.across.x() - a(1, 0) * sample.across.y(),
@@ -239,7 +247,7 @@ auto SlowLookout::told_by(const Coast& coast) const -> Told {
     for (std::size_t i = filled_; i-- > 0;) {
         since[i] = since[i + 1];
         const auto age_us = static_cast<std::int64_t>(i) * slice_us + slice_us / 2;
-        add_slice(i, coast.at(coast.t_us - age_us, longest_s), since[i]);
+        add_slice(i, coast.at(coast.t_us - age_us, longest_s), 0, samples_.size(), since[i]);
     }
     Told told;
     const auto tell = [&](std::size_t newest, std::size_t end) {
@@ -249,6 +257,35 @@ auto SlowLookout::told_by(const Coast& coast) const -> Told {
     for (std::size_t newest = 0; newest + least_slices <= filled_; ++newest) tell(newest, filled_);
     if (filled_ >= 2 * least_slices) tell(0, filled_ / 2);
     return told;
+}
+
+// Whether what speaks for it comes from more than a quarter of the contour: an edge of something
+// else, or of its own where it is not, lies along a part of it.
+bool SlowLookout::is_all_around(const Coast& coast, const Told& told) const {
+    std::array<Sums, parts> sums{};
+    Sums all;
+    for (std::size_t i = told.newest; i < filled_; ++i) {
+        const auto age_us = static_cast<std::int64_t>(i) * slice_us + slice_us / 2;
+        const Coast then = coast.at(coast.t_us - age_us, longest_s);
+        for (std::size_t part = 0; part < parts; ++part) {
+            add_slice(i, then, part * samples_.size() / parts, (part + 1) * samples_.size() / parts,
+                      sums[part]);
+        }
+    }
+    for (const Sums& part : sums) {
+        for (std::size_t k = 0; k < 4; ++k) all.fired[k / 2][k % 2] += part.fired[k / 2][k % 2];
+        all.variance += part.variance;
+    }
+    std::sort(sums.begin(), sums.end(),
+              [](const Sums& l, const Sums& r) { return l.most() < r.most(); });
+    Sums best;
+    for (std::size_t part = parts - best_parts; part < parts; ++part) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            best.fired[k / 2][k % 2] += sums[part].fired[k / 2][k % 2];
+        }
+        best.variance += sums[part].variance;
+    }
+    return z_of(all, best) > std::max(least_rest_z, least_rest_share * told.z);
 }
 
 // On the way as of the last look first; or on another.
@@ -327,7 +364,9 @@ auto SlowLookout::look(const Coast& own, double gyration_px) -> Sight {
         way_ = coast;
     }
     // What has made no events for a while stands where it made the last.
-    const std::size_t silent = told_by(*way_).newest;
+    const Told told = told_by(*way_);
+    const std::size_t silent = told.newest;
+    sight.is_all_around = is_all_around(*way_, told);
     sight.best = way_->at(own.t_us - static_cast<std::int64_t>(silent) * slice_us, longest_s);
     sight.best.t_us = own.t_us;
     if (silent >= stopped_slices) sight.best.velocity = {};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -44,8 +45,9 @@ class SlowLookout {
     [[nodiscard]] bool is_due() const { return added_ == 0 && filled_ >= least_slices; }
 
     struct Sight {
-        Coast best;    ///< Where it is now, and how it goes if it does.
-        double z = 0;  ///< How far that stands out, in standard deviations of noise.
+        Coast best;                  ///< Where it is now, and how it goes if it does.
+        double z = 0;                ///< How far that stands out, in standard deviations of noise.
+        bool is_all_around = false;  ///< By more than a quarter of the contour.
     };
     /// The best about where it was last; gyration_px: of the contour in the image. Among all the
     /// ways that it looks along chance lifts the best to 4 as a rule.
@@ -79,6 +81,11 @@ class SlowLookout {
     struct Sums {
         std::array<std::array<double, 2>, 2> fired{};
         double variance = 0;
+
+        /// Of the two polarities that an object can make on its sides.
+        [[nodiscard]] double most() const {
+            return std::max(fired[0][0] + fired[1][1], fired[0][1] + fired[1][0]);
+        }
     };
     /// How far what fired along a way stands out, and which of the slices was the last to tell.
     struct Told {
@@ -87,7 +94,10 @@ class SlowLookout {
     };
 
     void weigh_overlap(const Pose& pose);
-    void add_slice(std::size_t slice, const Coast& then, Sums& sums) const;
+    /// Of the samples from the first to before the end.
+    void add_slice(std::size_t slice, const Coast& then, std::size_t first, std::size_t end,
+                   Sums& sums) const;
+    [[nodiscard]] bool is_all_around(const Coast& coast, const Told& told) const;
     [[nodiscard]] double z_of(const Sums& of, const Sums& less) const;
     [[nodiscard]] Told told_by(const Coast& coast) const;
     void find_starts(const Coast& own);

@@ -26,6 +26,11 @@ class LookingOutForWhatIsSlow : public testing::Test {
     /// Looks about `own`, which stands still, at what fires in this time; the last look.
     SlowLookout::Sight look(const Truth& truth, std::int64_t to_us, double noise_hz,
                             const Pose& own, double per_ms = arrow_per_ms) {
+        return look(shape_, truth, to_us, noise_hz, own, per_ms);
+    }
+    /// At those of another shape.
+    SlowLookout::Sight look(const Shape& shape, const Truth& truth, std::int64_t to_us,
+                            double noise_hz, const Pose& own, double per_ms) {
         const double extent_px = contour_.radius_px() * std::numbers::sqrt2;
         const int side = 2 * static_cast<int>(extent_px + 22) + 1;
         FiredCounts fired;
@@ -36,8 +41,8 @@ class LookingOutForWhatIsSlow : public testing::Test {
         SlowLookout::Sight sight;
         std::int64_t look_us = Lookout::every_us;
         for (const Event& event :
-             outline_events(shape_, truth, 0, to_us + 500, per_ms,
-                            noise_everywhere_per_ms(noise_hz), small_sensor, 3)) {
+             outline_events(shape, truth, 0, to_us + 500, per_ms, noise_everywhere_per_ms(noise_hz),
+                            small_sensor, 3)) {
             while (event.t_us >= look_us) {
                 slow_.add(fired, own.t_px, extent_px);
                 fired.clear();
@@ -107,6 +112,17 @@ TEST_F(LookingOutForWhatIsSlow, sees_nothing_where_there_is_noise_alone) {
         EXPECT_LT(most_z_, 6) << hz;
         EXPECT_GT(most_z_, 2) << hz;
     }
+}
+
+TEST_F(LookingOutForWhatIsSlow, tells_that_an_edge_of_something_else_lies_along_a_part_alone) {
+    const Shape edge{"edge", {{-19, 0}, {19, 0}}, {{0, 1}}};
+    const Truth passing = [](double t_us) { return pose_of(140, 112 + 40e-6 * t_us, 0); };
+    const auto other = look(edge, passing, 160'000, 30, pose_of(150, 120, 0), 60);
+    EXPECT_GT(other.z, 6);
+    EXPECT_FALSE(other.is_all_around);
+    slow_.restart();
+    const Truth truth = [](double t_us) { return pose_of(150, 120 + 30e-6 * t_us, 0.3); };
+    EXPECT_TRUE(look(truth, 160'000, 30, truth(160'000)).is_all_around);
 }
 
 TEST_F(LookingOutForWhatIsSlow, takes_the_border_of_the_image_for_nothing) {
