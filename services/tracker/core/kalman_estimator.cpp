@@ -31,7 +31,6 @@ constexpr double most_pose_sigma_px = 1.2;
 constexpr double onset_px2 = 0.5;   // variance, when it begins to move out of noise
 constexpr double onset_px_s = 200;  // σ of its speed then
 // Among strong noise.
-constexpr double least_visible_share = 0.7;
 constexpr double sighted_sigma_px = 0.6;
 constexpr double sighted_speed_sigma_px_s = 100;
 constexpr double silent_events = 10;  // expected and not come: it stands still
@@ -253,8 +252,7 @@ void KalmanEstimator<kind>::find_silent_way() {
 template <TransformKind kind>
 void KalmanEstimator<kind>::look_out(std::int64_t t_us) {
     const Coast own{t_us, filter_.pose(), velocity()};
-    const auto to = watch_.look(own, clutter_, visible_share_ > least_visible_share,
-                                size_.gyration_px, size_.extent_px);
+    const auto to = watch_.look(own, clutter_, visible_share_, size_.gyration_px, size_.extent_px);
     if (!to) return;
     const double per_px = 1 / size_.gyration_px;
     filter_.restart(to->pose, M::twist_of(to->velocity),
@@ -293,7 +291,7 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, std::int64_t
     if constexpr (!keeps_its_size) lay_out();
     clutter_.reach(event.t_us);
     if (watch_.is_due(event.t_us)) look_out(event.t_us);
-    if (watch_.is_on()) watch_.see(event.x, event.y);
+    if (watch_.is_on()) watch_.see(event);
     q = Eigen::Vector2d(event.x, event.y) - pose.t_px;
     if constexpr (is_bent) {
         // To where it would be, were the model not bent.

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "services/tracker/core/contour_samples.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
@@ -40,16 +42,8 @@ std::int64_t age_us(std::size_t slice) {
 }  // namespace
 
 Lookout::Lookout(const Contour& contour) : scores_(turns * places * places) {
-    const double step_px = std::max(contour.length_px() / most_samples, 1e-9);
-    double along_px = step_px / 2;
-    for (const Piece& piece : contour.pieces().pieces()) {
-        const Eigen::Vector2d from(piece.ax, piece.ay);
-        const Eigen::Vector2d way = Eigen::Vector2d(piece.bx, piece.by) - from;
-        const double length_px = way.norm();
-        for (; along_px < length_px; along_px += step_px) {
-            samples_.push_back(from + way * (along_px / length_px));
-        }
-        along_px -= length_px;
+    for (const ContourSample& sample : samples_along(contour, most_samples)) {
+        samples_.push_back(sample.at_px);
     }
 }
 
@@ -58,56 +52,61 @@ void Lookout::place(const Eigen::Vector2d& center_px, double extent_px) {
     const int left = static_cast<int>(std::lround(center_px.x())) - half;
     const int top = static_cast<int>(std::lround(center_px.y())) - half;
     const auto side = static_cast<unsigned>(2 * half + 1);
-    if (side == side_ && std::abs(left - left_) <= margin_px && std::abs(top - top_) <= margin_px) {
+    if (side == fresh_.side && std::abs(left - fresh_.left) <= margin_px &&
+        std::abs(top - fresh_.top) <= margin_px) {
         return;
     }
     for (std::vector<float>& counts : slices_) {
         std::vector<float> moved(std::size_t{side} * side);
         for (unsigned row = 0; row < side; ++row) {
-            const auto old_row = static_cast<unsigned>(static_cast<int>(row) + top - top_);
-            if (old_row >= side_) continue;
+            const auto old_row = static_cast<unsigned>(static_cast<int>(row) + top - fresh_.top);
+            if (old_row >= fresh_.side) continue;
             for (unsigned column = 0; column < side; ++column) {
-                const auto old = static_cast<unsigned>(static_cast<int>(column) + left - left_);
-                if (old < side_) moved[row * side + column] = counts[old_row * side_ + old];
+                const auto old =
+                    static_cast<unsigned>(static_cast<int>(column) + left - fresh_.left);
+                if (old < fresh_.side)
+                    moved[row * side + column] = counts[old_row * fresh_.side + old];
             }
         }
         counts = std::move(moved);
     }
-    left_ = left;
-    top_ = top;
-    side_ = side;
+    fresh_.left = left;
+    fresh_.top = top;
+    fresh_.side = side;
     half_px_ = half;
-    fresh_.assign(slices_[0].size(), 0);
+    fresh_.events.assign(slices_[0].size(), {});
     work_.assign(slices_[0].size(), 0);
 }
 
 void Lookout::close_slice() {
-    if (side_ == 0) return;
+    if (fresh_.side == 0) return;
     std::rotate(slices_.begin(), slices_.end() - 1, slices_.end());
     // By 1 2 1 across and down: as far as events stray.
-    const std::size_t size = fresh_.size();
+    const auto fired = [&](std::size_t i) { return fresh_.events[i][0] + fresh_.events[i][1]; };
+    const std::size_t size = fresh_.events.size();
     for (std::size_t i = 1; i + 1 < size; ++i) {
-        work_[i] = static_cast<float>(fresh_[i - 1] + 2 * fresh_[i] + fresh_[i + 1]);
+        work_[i] = static_cast<float>(fired(i - 1) + 2 * fired(i) + fired(i + 1));
     }
     std::vector<float>& counts = slices_[0];
-    for (std::size_t i = side_; i + side_ < size; ++i) {
-        counts[i] = (work_[i - side_] + 2 * work_[i] + work_[i + side_]) / 16;
+    for (std::size_t i = fresh_.side; i + fresh_.side < size; ++i) {
+        counts[i] = (work_[i - fresh_.side] + 2 * work_[i] + work_[i + fresh_.side]) / 16;
     }
     fill_up(counts);
-    std::fill(fresh_.begin(), fresh_.end(), std::uint16_t{0});
+    fresh_.clear();
 }
 
 // No events come from where they are not asked for, and from beyond the image: as many as elsewhere
 // would be, lest places that reach there seem emptier than others.
 void Lookout::fill_up(std::vector<float>& counts) {
-    const auto side = static_cast<int>(side_);
+    const auto side = static_cast<int>(fresh_.side);
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
-            if (fresh_[row * side + column] == 0) continue;
-            seen_.left = std::min(seen_.left, left_ + column);
-            seen_.right = std::max(seen_.right, left_ + column);
-            seen_.top = std::min(seen_.top, top_ + row);
-            seen_.bottom = std::max(seen_.bottom, top_ + row);
+            const auto& fired = fresh_.events[static_cast<std::size_t>(row * side + column)];
+            if (fired[0] + fired[1] == 0) continue;
+            seen_.left = std::min(seen_.left, fresh_.left + column);
+            seen_.right = std::max(seen_.right, fresh_.left + column);
+            seen_.top = std::min(seen_.top, fresh_.top + row);
+            seen_.bottom = std::max(seen_.bottom, fresh_.top + row);
         }
     }
     // About the middle all of them were asked for.
@@ -116,8 +115,8 @@ void Lookout::fill_up(std::vector<float>& counts) {
     double sum = 0;
     double pixels = 0;
     const auto is_seen = [&](int row, int column) {
-        const int x = left_ + column;
-        const int y = top_ + row;
+        const int x = fresh_.left + column;
+        const int y = fresh_.top + row;
         return x > seen_.left && x < seen_.right && y > seen_.top && y < seen_.bottom;
     };
     for (int row = middle - about; row <= middle + about; ++row) {
@@ -138,7 +137,7 @@ void Lookout::fill_up(std::vector<float>& counts) {
 // Every place, as it goes so: the slices are laid over each other, and the contour over them.
 void Lookout::look_around(const Coast& own, const Velocity& going) {
     std::fill(work_.begin(), work_.end(), 0.F);
-    const auto side = static_cast<int>(side_);
+    const auto side = static_cast<int>(fresh_.side);
     for (std::size_t i = 0; i < slices; ++i) {
         const double age_s = static_cast<double>(age_us(i)) * 1e-6;
         const auto dx = static_cast<int>(std::lround(age_s * going.vx_px_s));
@@ -156,8 +155,8 @@ void Lookout::look_around(const Coast& own, const Velocity& going) {
         float* scores = &scores_[turn * places * places];
         for (const Eigen::Vector2d& sample : samples_) {
             const Eigen::Vector2d p = own.pose.t_px + a * sample;
-            const auto column = static_cast<int>(std::lround(p.x())) - left_ - reach_px;
-            const auto row = static_cast<int>(std::lround(p.y())) - top_ - reach_px;
+            const auto column = static_cast<int>(std::lround(p.x())) - fresh_.left - reach_px;
+            const auto row = static_cast<int>(std::lround(p.y())) - fresh_.top - reach_px;
             if (column < 0 || row < 0 || column + 2 * reach_px >= side ||
                 row + 2 * reach_px >= side) {
                 continue;
@@ -165,7 +164,7 @@ void Lookout::look_around(const Coast& own, const Velocity& going) {
             const float* counts = work_.data() + row * side + column;
             for (std::size_t y = 0; y < places; ++y) {
                 for (std::size_t x = 0; x < places; ++x) {
-                    scores[y * places + x] += counts[y * side_ + x];
+                    scores[y * places + x] += counts[y * fresh_.side + x];
                 }
             }
         }
@@ -177,13 +176,13 @@ void Lookout::weigh_noise(const Pose& pose) {
     std::fill(work_.begin(), work_.end(), 0.F);
     for (const Eigen::Vector2d& sample : samples_) {
         const Eigen::Vector2d p = pose.t_px + pose.a * sample;
-        const auto column = static_cast<unsigned>(std::lround(p.x()) - left_ - 1);
-        const auto row = static_cast<unsigned>(std::lround(p.y()) - top_ - 1);
-        if (column >= side_ - 2 || row >= side_ - 2) continue;
+        const auto column = static_cast<unsigned>(std::lround(p.x()) - fresh_.left - 1);
+        const auto row = static_cast<unsigned>(std::lround(p.y()) - fresh_.top - 1);
+        if (column >= fresh_.side - 2 || row >= fresh_.side - 2) continue;
         constexpr std::array<float, 3> spread{0.25F, 0.5F, 0.25F};
         for (unsigned y = 0; y < 3; ++y) {
             for (unsigned x = 0; x < 3; ++x) {
-                work_[(row + y) * side_ + column + x] += spread[x] * spread[y];
+                work_[(row + y) * fresh_.side + column + x] += spread[x] * spread[y];
             }
         }
     }
@@ -198,20 +197,20 @@ auto Lookout::scores_of(const Coast& coast) const -> std::array<double, parts> {
     std::array<double, parts> scores{};
     for (std::size_t i = 0; i < slices; ++i) {
         const Pose pose = coast.at(coast.t_us - age_us(i), longest_s).pose;
-        const double left = pose.t_px.x() - left_;
-        const double top = pose.t_px.y() - top_;
+        const double left = pose.t_px.x() - fresh_.left;
+        const double top = pose.t_px.y() - fresh_.top;
         for (std::size_t k = 0; k < samples_.size(); ++k) {
             const Eigen::Vector2d& m = samples_[k];
             const double x = left + pose.a(0, 0) * m.x() + pose.a(0, 1) * m.y();
             const double y = top + pose.a(1, 0) * m.x() + pose.a(1, 1) * m.y();
-            if (!(x >= 0 && y >= 0 && x < side_ - 1 && y < side_ - 1)) continue;
+            if (!(x >= 0 && y >= 0 && x < fresh_.side - 1 && y < fresh_.side - 1)) continue;
             const auto column = static_cast<unsigned>(x);
             const auto row = static_cast<unsigned>(y);
             const auto right = static_cast<float>(x - column);
             const auto down = static_cast<float>(y - row);
-            const float* at = slices_[i].data() + row * side_ + column;
+            const float* at = slices_[i].data() + row * fresh_.side + column;
             const float upper = at[0] + right * (at[1] - at[0]);
-            const float lower = at[side_] + right * (at[side_ + 1] - at[side_]);
+            const float lower = at[fresh_.side] + right * (at[fresh_.side + 1] - at[fresh_.side]);
             scores[k * parts / samples_.size()] += upper + down * (lower - upper);
         }
     }

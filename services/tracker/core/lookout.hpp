@@ -10,6 +10,7 @@
 
 #include "services/tracker/core/coast.hpp"
 #include "services/tracker/core/contour.hpp"
+#include "services/tracker/core/fired_counts.hpp"
 #include "services/tracker/core/pose.hpp"
 
 namespace pursuit::tracker {
@@ -29,16 +30,16 @@ class Lookout {
 
     /// Nothing was seen yet.
     void restart() {
-        side_ = 0;
+        fresh_.side = 0;
         seen_ = {};
     }
 
     /// An event about the object.
-    void see(std::uint16_t x, std::uint16_t y) {
-        const auto column = static_cast<unsigned>(x - left_);
-        const auto row = static_cast<unsigned>(y - top_);
-        if (column < side_ && row < side_) ++fresh_[row * side_ + column];
+    void see(std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
+        fresh_.see(x, y, polarity);
     }
+    /// What was seen since the last look.
+    [[nodiscard]] const FiredCounts& fresh() const { return fresh_; }
 
     /// What a look shows.
     struct Sight {
@@ -84,11 +85,9 @@ class Lookout {
 
     std::vector<Eigen::Vector2d> samples_;  // model frame, evenly along the contour
     double turn_rad_ = 0;                   // of a step
-    int left_ = 0, top_ = 0;
+    FiredCounts fresh_;                     // since the last look
     Box seen_;
     int half_px_ = 0;
-    unsigned side_ = 0;                              // of the window, px; 0: nothing was seen yet
-    std::vector<std::uint16_t> fresh_;               // events of each pixel since the last look
     std::array<std::vector<float>, slices> slices_;  // about each pixel; the newest first
     std::vector<float> work_;
     std::vector<float> scores_;  // [turn][y][x]

@@ -4,12 +4,17 @@
 namespace pursuit::tracker {
 namespace {
 
-// A pixel. Where there is less, the estimator does as well alone.
-constexpr double strong_hz = 15;
+// A pixel. Where there is less, the estimator does as well alone; and the edges of other things,
+// slow ones, can be as steady as noise of 4 Hz.
+constexpr double strong_hz = 7;
 // Not so steady any more it is still the noise that it was, within these; an object that comes out
 // of it makes it uneven.
 constexpr double least_of_noise = 0.6;
 constexpr double most_of_noise = 1.6;
+
+// Of it must show.
+constexpr double unhidden_share = 0.7;
+constexpr double least_visible_share = 0.3;
 
 // What was taken for the first motion was noise as well, unless so much of it was its own.
 constexpr std::int64_t start_us = 30'000;
@@ -22,6 +27,10 @@ constexpr double still_here_z = 2.5;
 constexpr double confirmed_z = 6;
 constexpr int looks_of_chance = 7;  // longer than what was chance is looked at
 constexpr double plain_z = 8;
+// By what fired in 160 ms. (Chance lifts the best of all ways to 4, as a rule.)
+constexpr double creeping_z = 6;
+constexpr double still_creeping_z = 4.8;
+constexpr double longest_s = 1;
 // Where so much of what is on the contour is its own, the estimator needs no help: it follows what
 // turns too fast for a look.
 constexpr double plain_share = 0.5;
@@ -32,15 +41,19 @@ void NoiseWatch::restart(const Pose& pose, const Velocity& velocity) {
     start_ = held_ = {0, pose, velocity};
     is_on_ = is_sighted_ = is_confirmed_ = false;
     looks_ = plain_looks_ = sighted_looks_ = 0;
+    is_creeping_ = false;
     began_us_ = -1;
     due_us_ = 0;
 }
 
-void NoiseWatch::tell_noise(const Clutter& clutter, bool can_look) {
+void NoiseWatch::tell_noise(const Clutter& clutter, double visible_share) {
+    // Beside what hides it in part it is not the noise that is counted: then what was known holds.
+    if (visible_share < unhidden_share) {
+        is_on_ &= visible_share > least_visible_share;
+        return;
+    }
     const double hz = clutter.noise_hz();
-    if (!can_look) {
-        is_on_ = false;
-    } else if (clutter.is_steady()) {
+    if (clutter.is_steady()) {
         is_on_ = hz > strong_hz;
         noise_hz_ = hz;
     } else if (is_on_) {
@@ -48,15 +61,22 @@ void NoiseWatch::tell_noise(const Clutter& clutter, bool can_look) {
     }
 }
 
-std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter, bool can_look,
-                                      double gyration_px, double extent_px) {
+std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter,
+                                      double visible_share, double gyration_px, double extent_px) {
+    // Among noise there is no silence. After one nothing is known of where it went meanwhile.
+    if (own.t_us > due_us_ + Lookout::every_us) {
+        lookout_.restart();
+        slow_.restart();
+        looks_ = plain_looks_ = sighted_looks_ = 0;
+    }
     due_us_ = own.t_us + Lookout::every_us;
     if (began_us_ < 0) began_us_ = own.t_us;
     const bool was_on = is_on_;
-    tell_noise(clutter, can_look && extent_px < Lookout::most_extent_px);
+    tell_noise(clutter, extent_px < Lookout::most_extent_px ? visible_share : 0);
     if (!is_on_) return std::nullopt;
     if (!was_on) {
         lookout_.restart();
+        slow_.restart();
         lookout_.look(own, gyration_px, extent_px, false);
         looks_ = plain_looks_ = sighted_looks_ = 0;
         const Velocity& v = start_.velocity;
@@ -68,6 +88,9 @@ std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter, 
         if (is_fresh) return held_;
         return std::nullopt;
     }
+    // What Lookout sees tells nothing of how it goes when it is slow.
+    if (is_sighted_) slow_.restart();
+    slow_.add(lookout_.fresh(), own.pose.t_px, extent_px);
     const bool everywhere = plain_looks_ == 0 || looks_ % looks_everywhere == 0;
     const Lookout::Sight sight = lookout_.look(own, gyration_px, extent_px, everywhere);
     const double own_z = sight.own_z;
@@ -75,24 +98,40 @@ std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter, 
     if (++looks_ < first_looks) return std::nullopt;
     if (clutter.own_share() > plain_share) {
         is_sighted_ = is_confirmed_ = true;
+        is_creeping_ = false;
         return std::nullopt;
     }
     if (sight.instead) {
         if (is_confirmed_) hold(own);
         is_sighted_ = true;
+        is_creeping_ = false;
         sighted_looks_ = 0;
         return sight.instead;
     }
     is_sighted_ = own_z > (is_sighted_ ? still_here_z : here_z);
     sighted_looks_ = is_sighted_ ? sighted_looks_ + 1 : 0;
     is_confirmed_ |= own_z > confirmed_z || sighted_looks_ > looks_of_chance;
-    if (is_sighted_) return std::nullopt;
-    if (is_confirmed_) {
-        hold(own);
+    if (is_sighted_) {
+        is_creeping_ = false;
         return std::nullopt;
     }
-    // Chance it was.
-    held_.t_us = own.t_us;
+    return look_slowly(own, gyration_px);
+}
+
+// It does not stand out by what fired in the last 20 ms.
+std::optional<Coast> NoiseWatch::look_slowly(const Coast& own, double gyration_px) {
+    if (is_confirmed_) hold(own);
+    held_ = held_.at(own.t_us, longest_s);
+    if (slow_.is_due()) {
+        const SlowLookout::Sight sight = slow_.look(held_, gyration_px);
+        is_creeping_ =
+            is_creeping_ ? sight.z > still_creeping_z : sight.z > creeping_z && sight.is_all_around;
+        if (is_creeping_) {
+            held_ = sight.best;
+        } else {
+            held_.velocity = {};
+        }
+    }
     return held_;
 }
 

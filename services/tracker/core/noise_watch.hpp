@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "services/common/event.hpp"
 #include "services/tracker/core/clutter.hpp"
 #include "services/tracker/core/lookout.hpp"
+#include "services/tracker/core/slow_lookout.hpp"
 
 namespace pursuit::tracker {
 
@@ -21,7 +23,7 @@ namespace pursuit::tracker {
 class NoiseWatch {
  public:
     NoiseWatch() = default;
-    explicit NoiseWatch(const Contour& contour) : lookout_(contour) {}
+    explicit NoiseWatch(const Contour& contour) : lookout_(contour), slow_(contour) {}
 
     /// Begins anew with an object at this pose, going so.
     void restart(const Pose& pose, const Velocity& velocity);
@@ -34,13 +36,13 @@ class NoiseWatch {
     [[nodiscard]] bool is_sure() const { return is_on_ && plain_looks_ >= sure_looks; }
 
     /// An event about the object.
-    void see(std::uint16_t x, std::uint16_t y) { lookout_.see(x, y); }
+    void see(const Event& event) { lookout_.see(event.x, event.y, event.polarity); }
 
     [[nodiscard]] bool is_due(std::int64_t t_us) const { return t_us >= due_us_; }
 
-    /// Where to put the object, if not where it is thought to be. can_look: its contour is fit for
-    /// it. gyration_px, extent_px: of the contour in the image.
-    std::optional<Coast> look(const Coast& own, const Clutter& clutter, bool can_look,
+    /// Where to put the object, if not where it is thought to be. gyration_px, extent_px: of the
+    /// contour in the image.
+    std::optional<Coast> look(const Coast& own, const Clutter& clutter, double visible_share,
                               double gyration_px, double extent_px);
 
  private:
@@ -51,15 +53,18 @@ class NoiseWatch {
         held_.velocity = {};
         is_confirmed_ = false;
     }
-    void tell_noise(const Clutter& clutter, bool can_look);
+    std::optional<Coast> look_slowly(const Coast& own, double gyration_px);
+    void tell_noise(const Clutter& clutter, double visible_share);
 
     Lookout lookout_;
+    SlowLookout slow_;
     Coast start_;
     Coast held_;  // where it was when it was seen last
     bool is_on_ = false;
     bool is_sighted_ = false;
     bool is_confirmed_ = false;
-    double noise_hz_ = 0;  // when it was steady
+    bool is_creeping_ = false;  // where it is held
+    double noise_hz_ = 0;       // when it was steady
     int looks_ = 0;
     int plain_looks_ = 0;    // in turn
     int sighted_looks_ = 0;  // since it was put there

@@ -38,7 +38,7 @@ class LookingOut : public testing::Test {
                 most_z_ = std::max(most_z_, sight.own_z);
                 times_elsewhere_ += sight.instead.has_value();
             }
-            lookout_.see(event.x, event.y);
+            lookout_.see(event.x, event.y, event.polarity);
         }
         return sight;
     }
@@ -141,6 +141,40 @@ TEST(NoiseWatch, keeps_an_object_that_stands_among_noise_and_sets_out) {
 
 TEST(NoiseWatch, takes_an_object_up_that_stood_a_few_px_off) {
     EXPECT_LT(mean_error_px(100, {-3, 2}), 2.5);
+}
+
+TEST(NoiseWatch, goes_with_an_object_that_creeps) {
+    const Shape shape = test::arrow();
+    for (const double noise_hz : {10.0, 100.0}) {
+        const auto truth = [](double t_us) {
+            return pose_of(120 + 25e-6 * t_us, 120, 0.3 + 0.3e-6 * t_us);
+        };
+        Pose start = truth(0);
+        start.t_px += Eigen::Vector2d(0.7, -0.7);
+        Tracker tracker = test::that_follows_an_arrow(start);
+        test::Poses poses;
+        tracker.process(outline_events(shape, truth, 0, 1'000'000, moving_per_ms,
+                                       noise_per_ms(noise_hz), small_sensor, 9),
+                        poses);
+        EXPECT_LT(rms_px(shape, poses.rows.back().record.pose, truth(999'000)), 1) << noise_hz;
+    }
+}
+
+TEST(NoiseWatch, takes_nothing_that_stood_out_before_a_silence_for_sure_after_it) {
+    const Shape shape = test::arrow();
+    const auto truth = [](double t_us) { return pose_of(60 + 180e-6 * t_us, 120, 0.3); };
+    auto events =
+        outline_events(shape, truth, 0, 700'000, moving_per_ms, noise_per_ms(30), small_sensor, 11);
+    std::erase_if(events, [](const Event& e) { return e.t_us > 400'000 && e.t_us < 490'000; });
+    Tracker tracker = test::that_follows_an_arrow(truth(0));
+    test::Poses poses;
+    tracker.process(events, poses);
+    EXPECT_LT(rms_px(shape, poses.rows.back().record.pose, truth(699'000)), 1);
+    for (const auto& row : poses.rows) {
+        const auto t_us = static_cast<double>(row.record.t_us);
+        if (rms_px(shape, row.record.pose, truth(t_us)) < 10) continue;
+        EXPECT_LE(row.record.confidence, 0.5) << t_us;
+    }
 }
 
 TEST(NoiseWatch, holds_an_object_that_stands_for_seconds) {

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pursuit::tracker {
+
+/// How many events each pixel of a square window of the image made, OFF and ON.
+struct FiredCounts {
+    int left = 0;
+    int top = 0;
+    unsigned side = 0;  ///< px; 0: there is none yet.
+    std::vector<std::array<std::uint16_t, 2>> events;
+
+    void see(std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
+        const auto column = static_cast<unsigned>(x - left);
+        const auto row = static_cast<unsigned>(y - top);
+        if (column < side && row < side) ++events[row * side + column][polarity & 1];
+    }
+    void clear() { std::fill(events.begin(), events.end(), std::array<std::uint16_t, 2>{}); }
+};
+
+}  // namespace pursuit::tracker
