@@ -44,7 +44,7 @@ void Acquisition::set_gate(double gate_px) {
 }
 
 Approach Acquisition::approach(const Event& event) {
-    const Approach near = estimator_.approach(event, 0);
+    const Approach near = estimator_.approach(event, {});
     distance_px_ = near.contour_px;
     piece_ = near.piece;
     t_us_ = event.t_us;

@@ -155,14 +155,14 @@ void EventLoop::wake(std::int64_t t_us) {
 
 // The paper's algorithm, for one event.
 [[gnu::always_inline]] inline void EventLoop::process(const Event& event, PoseSink& sink) {
-    const std::int64_t since_same_us = recent_.note(event);
+    const PixelPast past = recent_.note(event);
     seeker_.see(event);
 
     // The objects it may belong to, by the nearest place of each model (3.1).
     arbiter_.begin();
     reach_map_.for_each(event.x, event.y, [&](std::size_t i) {
         Track& track = tracks_[i];
-        const Approach near = track.approach(event, since_same_us);
+        const Approach near = track.approach(event, past);
         if (!near.is_within()) return;
         if (tells_occlusion_ && occlusion_.hides(i, event, tracks_)) {
             track.deny();

@@ -46,7 +46,7 @@ void GradientEstimator::lay_out() {
     is_laid_out_ = transform_ == TransformKind::isometry;
 }
 
-Approach GradientEstimator::approach(const Event& event, std::int64_t) {
+Approach GradientEstimator::approach(const Event& event, const PixelPast&) {
     q_ = Eigen::Vector2d(event.x, event.y) - pose_.t_px;
     if (q_.squaredNorm() > reach2_px2_) return {};
     if (!is_laid_out_) lay_out();

@@ -66,6 +66,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     watch_.restart(pose, velocity);
     stands_still_ = false;
     backlash_.restart(contour_.pieces().pieces().size());
+    edge_polarity_.restart(contour_.pieces().pieces().size());
     contrast_.restart(contour_.pieces().pieces().size());
     bend_.restart();
     offsets_.restart();
@@ -246,7 +247,7 @@ double KalmanEstimator<kind>::lead_px(std::int32_t piece, int lead) const {
 }
 
 template <TransformKind kind>
-Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_same_us) {
+Approach KalmanEstimator<kind>::approach(const Event& event, const PixelPast& past) {
     const double within_px = reach_px(event.t_us);
     if ((Eigen::Vector2d(event.x, event.y) - filter_.pose().t_px).squaredNorm() >
         within_px * within_px) {
@@ -280,11 +281,22 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
     const Segment& segment = contour_.pieces().segment(place.piece);
     const Eigen::Vector2d middle(segment.ax + segment.dx / 2, segment.ay + segment.dy / 2);
     // A contour that lies where events came from has their leads in it.
-    const double h = contour_.is_of_events()
-                         ? 0
-                         : backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
-    const bool subsequent = static_cast<double>(since_same_us) * 1e-6 * speed_px_s_ < same_edge_px;
-    const int lead = 2 * (event.polarity & 1) + (subsequent ? 1 : 0);
+    const int polarity = event.polarity & 1;
+    double h = 0;
+    std::int64_t since_us = past.since_same_us;
+    measured_.settled_side = 0;
+    measured_.of_polarity = 1;
+    if (!contour_.is_of_events()) {
+        const double side = backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
+        const auto told = edge_polarity_.tell(place.piece, polarity, side);
+        h = told.gone;
+        measured_.of_polarity = told.likelihood;
+        if (backlash_.is_settled(place.piece)) measured_.settled_side = side;
+        // Where the edge turned back it is in the midst of the pixels that made its last events.
+        if (backlash_.has_turned(place.piece)) since_us = std::min(since_us, past.since_other_us);
+    }
+    const bool subsequent = static_cast<double>(since_us) * 1e-6 * speed_px_s_ < same_edge_px;
+    const int lead = 2 * polarity + (subsequent ? 1 : 0);
     const double r_px = place.r_px - lead_px(place.piece, lead) * h - offsets_.of(place.piece);
     const double distance_px = std::abs(r_px);
     if (distance_px > Clutter::far_from_px && distance_px < Clutter::far_to_px) {
@@ -308,8 +320,8 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
 template <TransformKind kind>
 bool KalmanEstimator<kind>::take(double weight) {
     const double r = measured_.r_px;
-    const double likelihood = measured_.told.likelihood();
-    const double share = weight * likelihood / (likelihood + measured_.clutter);
+    const double of_own = measured_.told.likelihood() * measured_.of_polarity;
+    const double share = weight * of_own / (of_own + measured_.clutter);
     const bool is_told = clutter_.is_measured();
     clutter_.count_near(measured_.piece, share);
     if (!is_told || stands_still_ || share < least_share) return false;
@@ -321,6 +333,9 @@ bool KalmanEstimator<kind>::take(double weight) {
     }
     if (parameters_.learns_offsets >= 0.5 && measured_.has_side) {
         offsets_.learn(measured_.piece, r, share, speed_px_s_);
+    }
+    if (std::abs(measured_.settled_side) >= 1) {
+        edge_polarity_.learn(measured_.piece, measured_.lead / 2, measured_.settled_side, share);
     }
     contrast_.count(measured_.piece, measured_.lead / 2, measured_.lead % 2 == 1, share);
     if (lead_prior_.count(measured_.lead, share)) {

@@ -285,11 +285,11 @@ Reach Track::reach(std::int64_t t_us) const {
     return {estimator_->pose().t_px, estimator_->reach_px(t_us)};
 }
 
-Approach Track::approach(const Event& event, std::int64_t since_same_us) {
+Approach Track::approach(const Event& event, const PixelPast& past) {
     if (is_covered_ || (is_searching_ && !is_acquiring_)) return {};
     if (is_acquiring_) return acquisition_->approach(event);
-    if (watches_inside_) watch_inside(event, since_same_us);
-    const Approach near = estimator_->approach(event, since_same_us);
+    if (watches_inside_) watch_inside(event, past.since_same_us);
+    const Approach near = estimator_->approach(event, past);
     distance_px_ = near.contour_px;
     piece_ = near.piece;
     return near;

@@ -64,7 +64,7 @@ class Track {
     [[nodiscard]] Reach reach(std::int64_t t_us) const;
 
     /// How near an event is. take() uses the event that approach() was asked for last.
-    Approach approach(const Event& event, std::int64_t since_same_us);
+    Approach approach(const Event& event, const PixelPast& past);
     /// Of that event under the object, 1/px.
     [[nodiscard]] double likelihood() const {
         return is_acquiring_ ? acquisition_->likelihood() : estimator_->likelihood();
