@@ -44,7 +44,7 @@ void Acquisition::set_gate(double gate_px) {
 }
 
 const Approach* Acquisition::approach(const Event& event) {
-    const Approach* const near = estimator_->approach(event, 0);
+    const Approach* const near = estimator_->approach(event, {});
     if (near == nullptr) return nullptr;
     distance_px_ = near->distance_px();
     piece_ = near->piece;

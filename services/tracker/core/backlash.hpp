@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -21,21 +22,40 @@ class Backlash {
         Place& place = places_[static_cast<std::size_t>(piece)];
         if (place.is_known) {
             const double way_px = n.dot(middle_px - place.middle_px);
-            place.side = std::clamp(place.side + way_px / half_width_px, -1.0, 1.0);
+            const double before = place.side;
+            const double now = before + way_px / half_width_px;
+            place.side = std::clamp(now, -1.0, 1.0);
+            const bool has_turned = before * place.side <= 0;
+            place.since_turn_px = has_turned ? now * half_width_px : place.since_turn_px + way_px;
         }
         place.middle_px = middle_px;
         place.is_known = true;
         return place.side;
     }
 
+    /// Whether the piece has gone this way for so long that nothing is left of another.
+    [[nodiscard]] bool is_settled(std::int32_t piece) const {
+        return std::abs(of(piece).since_turn_px) > settled_px;
+    }
+    /// Whether the piece is still on the pixels on which it turned back.
+    [[nodiscard]] bool has_turned(std::int32_t piece) const {
+        return std::abs(of(piece).since_turn_px) < turned_px;
+    }
+
  private:
     static constexpr double half_width_px = 0.3;
+    static constexpr double settled_px = 0.8;
+    static constexpr double turned_px = 1.6;  // as wide as a blurred edge
 
     struct Place {
         Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
         double side = 0;
+        double since_turn_px = 0;
         bool is_known = false;
     };
+    [[nodiscard]] const Place& of(std::int32_t piece) const {
+        return places_[static_cast<std::size_t>(piece)];
+    }
     std::vector<Place> places_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "services/common/event.hpp"
 #include "services/tracker/core/contour.hpp"
+#include "services/tracker/core/pixel_past.hpp"
 #include "services/tracker/core/pose_record.hpp"
 #include "services/tracker/core/registration.hpp"
 
@@ -47,8 +48,7 @@ class Estimator {
     virtual void set_visible_share(double share) { static_cast<void>(share); }
 
     /// The event's distance to the model in the image; null beyond the gate. Holds until the next.
-    /// since_same_us: since the last event of the same pixel and polarity.
-    virtual const Approach* approach(const Event& event, std::int64_t since_same_us) = 0;
+    virtual const Approach* approach(const Event& event, const PixelPast& past) = 0;
 
     /// Of that event under the object, 1/px.
     [[nodiscard]] virtual double likelihood() const = 0;

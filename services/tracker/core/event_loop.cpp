@@ -156,9 +156,9 @@ void EventLoop::wake(std::int64_t t_us) {
 // How near the event is to this object; null where it cannot be the object's.
 [[gnu::always_inline]] inline const Approach* EventLoop::approach(const Event& event,
                                                                   std::size_t index,
-                                                                  std::int64_t since_same_us) {
+                                                                  const PixelPast& past) {
     Track& track = tracks_[index];
-    const Approach* const near = track.approach(event, since_same_us);
+    const Approach* const near = track.approach(event, past);
     if (near != nullptr && tells_occlusion_ && occlusion_.hides(index, event, tracks_)) {
         track.deny();
         return nullptr;
@@ -168,7 +168,7 @@ void EventLoop::wake(std::int64_t t_us) {
 
 // The paper's algorithm, for one event.
 [[gnu::always_inline]] inline void EventLoop::process(const Event& event, PoseSink& sink) {
-    const std::int64_t since_same_us = recent_.note(event);
+    const PixelPast past = recent_.note(event);
     seeker_.see(event);
 
     // The objects it may belong to, by the nearest place of each model (3.1). Mostly there is none,
@@ -179,14 +179,14 @@ void EventLoop::wake(std::int64_t t_us) {
         return;
     }
     if (concerned.is_one() && !arbiter_.listens()) {
-        const bool is_used = approach(event, concerned.first(), since_same_us) != nullptr &&
+        const bool is_used = approach(event, concerned.first(), past) != nullptr &&
                              step(event, concerned.first(), 1, sink);
         ++(is_used ? counters_.events_used : counters_.events_unused);
         return;
     }
     arbiter_.begin();
     concerned.for_each([&](std::size_t i) {
-        if (const Approach* const near = approach(event, i, since_same_us)) {
+        if (const Approach* const near = approach(event, i, past)) {
             arbiter_.claim(i, tracks_[i].object_id(), near->distance_px(), near->clutter);
         }
     });

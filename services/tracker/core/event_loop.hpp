@@ -83,7 +83,7 @@ class EventLoop {
     bool accepts(const Event& event);
     void wake(std::int64_t t_us);
     void process(const Event& event, PoseSink& sink);
-    const Approach* approach(const Event& event, std::size_t index, std::int64_t since_same_us);
+    const Approach* approach(const Event& event, std::size_t index, const PixelPast& past);
     bool step(const Event& event, std::size_t index, double weight, PoseSink& sink);
     void go_round(std::int64_t t_us);
     void restart_round();

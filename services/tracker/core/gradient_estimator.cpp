@@ -60,7 +60,7 @@ void GradientEstimator<kind>::lay_out() {
 }
 
 template <TransformKind kind>
-const Approach* GradientEstimator<kind>::approach(const Event& event, std::int64_t) {
+const Approach* GradientEstimator<kind>::approach(const Event& event, const PixelPast&) {
     q_ << event.x - pose_.t_px.x(), event.y - pose_.t_px.y();
     if (q_.squaredNorm() > reach2_px2_) return nullptr;
     t_us_ = event.t_us;

@@ -22,7 +22,7 @@ class GradientEstimator : public Estimator {
 
     void restart(const Pose& pose, const Velocity& velocity) override;
     void set_parameters(const ObjectParameters& parameters) override;
-    const Approach* approach(const Event& event, std::int64_t since_same_us) override;
+    const Approach* approach(const Event& event, const PixelPast& past) override;
     [[nodiscard]] double likelihood() const override;
     bool take(double weight) override;
     [[nodiscard]] double reach_px(std::int64_t t_us) const override;

@@ -66,6 +66,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     watch_.restart(pose, velocity);
     stands_still_ = false;
     backlash_.restart(contour_.pieces().pieces().size());
+    edge_polarity_.restart(contour_.pieces().pieces().size());
     contrast_.restart(contour_.pieces().pieces().size());
     bend_.restart();
     offsets_.restart();
@@ -282,7 +283,7 @@ double KalmanEstimator<kind>::lead_px(std::int32_t piece, int lead) const {
 }
 
 template <TransformKind kind>
-const Approach* KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_same_us) {
+const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelPast& past) {
     Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - filter_.pose().t_px;
     const double within_px = reach_px(event.t_us);
     if (q.squaredNorm() > within_px * within_px) return nullptr;
@@ -305,13 +306,23 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, std::int64_t
 
     // A contour that lies where events came from has their leads in it.
     const Segment& segment = contour_.pieces().segment(place.piece);
+    const int polarity = event.polarity & 1;
     double h = 0;
+    std::int64_t since_us = past.since_same_us;
+    measured_.settled_side = 0;
+    measured_.of_polarity = 1;
     if (!contour_.is_of_events()) {
         const Eigen::Vector2d middle(segment.ax + segment.dx / 2, segment.ay + segment.dy / 2);
-        h = backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
+        const double side = backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
+        const auto told = edge_polarity_.tell(place.piece, polarity, side);
+        h = told.gone;
+        measured_.of_polarity = told.likelihood;
+        if (backlash_.is_settled(place.piece)) measured_.settled_side = side;
+        // Where the edge turned back it is in the midst of the pixels that made its last events.
+        if (backlash_.has_turned(place.piece)) since_us = std::min(since_us, past.since_other_us);
     }
-    const bool subsequent = static_cast<double>(since_same_us) < same_edge_us_;
-    const int lead = 2 * (event.polarity & 1) + (subsequent ? 1 : 0);
+    const bool subsequent = static_cast<double>(since_us) < same_edge_us_;
+    const int lead = 2 * polarity + (subsequent ? 1 : 0);
     const double r_px = place.r_px - lead_px(place.piece, lead) * h - offsets_.of(place.piece);
     const double distance_px = std::abs(r_px);
     if (distance_px > Clutter::far_from_px && distance_px < Clutter::far_to_px) {
@@ -336,14 +347,14 @@ template <TransformKind kind>
 bool KalmanEstimator<kind>::take(double weight) {
     const double r = measured_.r_px;
     const MeasurementNoise::Told& told = measured_.told;
-    const double likelihood = told.likelihood();
-    const double share = weight * likelihood / (likelihood + near_.clutter);
+    const double of_own = told.likelihood() * measured_.of_polarity;
+    const double share = weight * of_own / (of_own + near_.clutter);
     const bool is_told = clutter_.is_measured();
     clutter_.count_near(near_.piece, share);
     if (!is_told || stands_still_ || share < least_share) return false;
 
     const double per_variance =
-        weight * told.share_per_variance(near_.clutter, measured_.row.h_p_h);
+        weight * told.share_per_variance(measured_.of_polarity, near_.clutter, measured_.row.h_p_h);
     if (watch_.is_on()) {
         const double doubt = (1 / share - 1) * r * r * per_variance;
         filter_.correct(measured_.row, r, per_variance, 1 - doubt);
@@ -368,6 +379,9 @@ template <TransformKind kind>
     noise_.learn(r_px, measured_.told, share);
     residual_px_ += 0.01 * share * (std::abs(r_px) - residual_px_);
     if (learns_offsets_ && measured_.has_side) offsets_.learn(near_.piece, r_px, share);
+    if (std::abs(measured_.settled_side) >= 1) {
+        edge_polarity_.learn(near_.piece, measured_.lead / 2, measured_.settled_side, share);
+    }
     contrast_.count(near_.piece, measured_.lead / 2, measured_.lead % 2 == 1, share);
     if (lead_prior_.count(measured_.lead, share)) {
         filter_.tell_leads(lead_prior_.weights(), lead_prior_.held_px(), LeadPrior::held_sigma_px);

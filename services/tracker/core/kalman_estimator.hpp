@@ -6,6 +6,7 @@
 #include "services/tracker/core/clutter.hpp"
 #include "services/tracker/core/contour_offsets.hpp"
 #include "services/tracker/core/edge_contrast.hpp"
+#include "services/tracker/core/edge_polarity.hpp"
 #include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/event_clock.hpp"
 #include "services/tracker/core/lead_prior.hpp"
@@ -29,8 +30,10 @@ class KalmanEstimator : public Estimator {
     void resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity,
                 double way_px) override;
     void set_visible_share(double share) override { visible_share_ = share; }
-    const Approach* approach(const Event& event, std::int64_t since_same_us) override;
-    [[nodiscard]] double likelihood() const override { return measured_.told.likelihood(); }
+    const Approach* approach(const Event& event, const PixelPast& past) override;
+    [[nodiscard]] double likelihood() const override {
+        return measured_.told.likelihood() * measured_.of_polarity;
+    }
     bool take(double weight) override;
     [[nodiscard]] double reach_px(std::int64_t t_us) const override;
     void stand_still() override {
@@ -92,6 +95,8 @@ class KalmanEstimator : public Estimator {
         typename Filter::Row row;
         double r_px;
         int lead;
+        double of_polarity = 1;   ///< Likelihood of the event's polarity.
+        double settled_side = 0;  ///< The way its piece goes, ±1; 0 where that is not settled.
         MeasurementNoise::Told told;
         Eigen::Vector2d along_bend;
         bool has_side = false;
@@ -113,6 +118,7 @@ class KalmanEstimator : public Estimator {
     EventClock clock_;
     Clutter clutter_;
     Backlash backlash_;
+    EdgePolarity edge_polarity_;
     EdgeContrast contrast_;
     MeasurementNoise noise_;
     Bend bend_;

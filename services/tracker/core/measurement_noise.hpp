@@ -39,12 +39,15 @@ class MeasurementNoise {
         [[nodiscard]] double variance_px2() const {
             return likelihood() * near_px2 * far_px2 / per_information();
         }
-        /// share / (state_px2 + variance_px2()) for the share of a likelihood that is the object's
-        /// beside clutter, at once: the next event waits for this.
-        [[nodiscard]] double share_per_variance(double clutter, double state_px2) const {
+        /// share / (state_px2 + variance_px2()) for the share of a likelihood, times that of the
+        /// event's polarity, that is the object's beside clutter, at once: the next event waits
+        /// for this.
+        [[nodiscard]] double share_per_variance(double of_polarity, double clutter,
+                                                double state_px2) const {
             const double sum = likelihood();
+            const double own = sum * of_polarity;
             const double of = per_information();
-            return sum * of / ((sum + clutter) * (state_px2 * of + sum * near_px2 * far_px2));
+            return own * of / ((own + clutter) * (state_px2 * of + sum * near_px2 * far_px2));
         }
 
      private:

@@ -2,21 +2,19 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include "services/common/event.hpp"
 #include "services/tracker/core/large_table.hpp"
+#include "services/tracker/core/pixel_past.hpp"
 
 namespace pursuit::tracker {
 
 /// When each pixel last fired, a polarity each.
 class RecentPixels {
  public:
-    static constexpr std::int64_t never_us = std::numeric_limits<std::int64_t>::max() / 2;
-
     void restart(Geometry geometry) {
         width_ = geometry.width;
-        last_us_.assign(std::size_t{2} * geometry.width * geometry.height, -never_us);
+        last_us_.assign(std::size_t{2} * geometry.width * geometry.height, -PixelPast::never_us);
     }
 
     /// Soon note() is called for this event: its pixel is fetched from memory meanwhile.
@@ -26,13 +24,14 @@ class RecentPixels {
         if (at < last_us_.size()) __builtin_prefetch(&last_us_[at], 1);
     }
 
-    /// µs since the same pixel fired with the same polarity, and notes this event.
-    std::int64_t note(const Event& event) {
-        std::int64_t& last_us =
-            last_us_[2 * (std::size_t{event.y} * width_ + event.x) + (event.polarity & 1U)];
-        const std::int64_t since_us = event.t_us - last_us;
+    /// How long since the same pixel fired, and notes this event.
+    PixelPast note(const Event& event) {
+        const std::size_t pixel = 2 * (std::size_t{event.y} * width_ + event.x);
+        const std::size_t polarity = event.polarity & 1U;
+        std::int64_t& last_us = last_us_[pixel + polarity];
+        const PixelPast past{event.t_us - last_us, event.t_us - last_us_[pixel + (polarity ^ 1U)]};
         last_us = event.t_us;
-        return since_us;
+        return past;
     }
 
  private:

@@ -285,13 +285,13 @@ Reach Track::reach(std::int64_t t_us) const {
     return {estimator_->pose().t_px, estimator_->reach_px(t_us)};
 }
 
-const Approach* Track::approach(const Event& event, std::int64_t since_same_us) {
+const Approach* Track::approach(const Event& event, const PixelPast& past) {
     if (is_covered_ || (is_searching_ && !is_acquiring_)) return nullptr;
     if (is_acquiring_) return acquisition_->approach(event);
-    const Approach* const near = estimator_->approach(event, since_same_us);
+    const Approach* const near = estimator_->approach(event, past);
     constexpr double nearest2_px2 = Vanishing::nearest_px * Vanishing::nearest_px;
     if (watches_inside_ && (near == nullptr || near->contour2_px2 >= nearest2_px2)) {
-        watch_inside(event, since_same_us);
+        watch_inside(event, past.since_same_us);
     }
     if (near != nullptr) {
         distance2_px2_ = near->contour2_px2;

@@ -65,7 +65,7 @@ class Track {
 
     /// How near an event is; null where it is none of the object's. take() uses the event that
     /// approach() was asked for last.
-    const Approach* approach(const Event& event, std::int64_t since_same_us);
+    const Approach* approach(const Event& event, const PixelPast& past);
     /// Of that event under the object, 1/px.
     [[nodiscard]] double likelihood() const {
         return is_acquiring_ ? acquisition_->likelihood() : estimator_->likelihood();

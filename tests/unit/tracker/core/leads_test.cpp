@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "services/tracker/core/backlash.hpp"
@@ -30,6 +31,36 @@ TEST(Backlash, turns_to_the_other_side_within_twice_its_half_width_of_the_way_ba
     EXPECT_NEAR(backlash.gone(1, {2.7, 0}, right), 0, 1e-9);
     EXPECT_NEAR(backlash.gone(1, {2.4, 0}, right), -1, 1e-9);
     EXPECT_EQ(backlash.gone(0, {2.4, 0}, right), 0);  // Each piece has its own.
+}
+
+TEST(Backlash, has_turned_until_it_is_past_what_it_came_back_on) {
+    Backlash backlash;
+    backlash.restart(1);
+    const Eigen::Vector2d right(1, 0);
+    backlash.gone(0, {0, 0}, right);
+    backlash.gone(0, {9, 0}, right);
+    EXPECT_FALSE(backlash.has_turned(0));
+    EXPECT_TRUE(backlash.is_settled(0));
+    for (const double x : {8.9, 8.8}) backlash.gone(0, {x, 0}, right);
+    EXPECT_FALSE(backlash.has_turned(0));  // Not yet: the pixels have not told.
+    for (const double x : {8.6, 8.0}) backlash.gone(0, {x, 0}, right);
+    EXPECT_TRUE(backlash.has_turned(0));
+    EXPECT_FALSE(backlash.is_settled(0));
+    backlash.gone(0, {7.5, 0}, right);
+    EXPECT_TRUE(backlash.has_turned(0));
+    EXPECT_TRUE(backlash.is_settled(0));
+    backlash.gone(0, {6.5, 0}, right);
+    EXPECT_FALSE(backlash.has_turned(0));
+}
+
+TEST(Backlash, of_a_piece_that_trembles_on_its_way_is_settled) {
+    Backlash backlash;
+    backlash.restart(1);
+    for (int i = 0; i < 100; ++i) {
+        backlash.gone(0, {0.1 * i + (i % 2 == 0 ? 0.1 : -0.1), 0}, {1, 0});
+    }
+    EXPECT_TRUE(backlash.is_settled(0));
+    EXPECT_FALSE(backlash.has_turned(0));
 }
 
 TEST(LeadPrior, holds_the_first_leads_where_no_other_come_and_the_mean_of_all_where_they_do) {
@@ -104,8 +135,8 @@ TEST(Leads, are_none_of_a_contour_that_was_told_by_events_itself) {
     EXPECT_TRUE(Contour(of_events).is_of_events());
     const double ahead_px = ahead_of_its_events_px(of_events);
     EXPECT_NEAR(ahead_px, 0, 0.1);
-    // What was drawn is expected behind the first events of a pixel.
-    EXPECT_LT(ahead_of_its_events_px(outline), ahead_px - 0.05);
+    // What was drawn is expected elsewhere, by its leads.
+    EXPECT_GT(std::abs(ahead_of_its_events_px(outline) - ahead_px), 0.05);
 }
 
 /// Events a second on the contour and beside it, drawn at random, for some time.

@@ -35,9 +35,9 @@ TEST(MeasurementNoise, tells_the_share_of_the_object_over_the_variance_at_once) 
     for (const double r_px : {0.0, 0.4, 1.7, 4.0}) {
         for (const double clutter : {0.002, 0.1, 3.0}) {
             const auto told = noise.at(r_px, 0.03, false);
-            const double share = told.likelihood() / (told.likelihood() + clutter);
-            EXPECT_NEAR(told.share_per_variance(clutter, 0.03) * (0.03 + told.variance_px2()),
-                        share, 1e-12);
+            const double own = 0.3 * told.likelihood();
+            EXPECT_NEAR(told.share_per_variance(0.3, clutter, 0.03) * (0.03 + told.variance_px2()),
+                        own / (own + clutter), 1e-12);
         }
     }
 }

@@ -66,7 +66,7 @@ class WatchedBox {
         for (const Event& event : events_) {
             for (; own != own_us_.end() && *own <= event.t_us; ++own) own_event(*own);
             const bool was_suspected = vanishing_.is_suspected();
-            vanishing_.see(event, middle, pixels_.note(event));
+            vanishing_.see(event, middle, pixels_.note(event).since_same_us);
             if (!was_suspected && vanishing_.is_suspected()) ++suspected_;
             was_gone_ |= vanishing_.is_gone(event.t_us);
         }
