@@ -95,7 +95,7 @@ TEST_F(HiddenArrow, is_not_left_frozen_when_occlusion_is_no_more_told) {
     tracker_.process({middle, events.end()}, poses_);
     // Nobody says any more that it is hidden: it is not there, and is found when it is.
     EXPECT_EQ(at(2'400'000).state, TrackState::occluded);
-    EXPECT_EQ(at(3'300'000).state, TrackState::lost);
+    EXPECT_EQ(at(3'150'000).state, TrackState::lost);
     // All of it is out from under the box, and its tip not yet out of the image.
     EXPECT_EQ(at(3'840'000).state, TrackState::tracking);
     EXPECT_LT(rms_px(test::arrow(), at(3'840'000).pose, arrow_at(3.84e6)), 1);
