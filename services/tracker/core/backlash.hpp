@@ -2,10 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
+
+#include "services/tracker/core/clamped.hpp"
 
 namespace pursuit::tracker {
 
@@ -23,8 +24,8 @@ class Backlash {
         if (place.is_known) {
             const double way_px = n.dot(middle_px - place.middle_px);
             const double before = place.side;
-            const double now = before + way_px / half_width_px;
-            place.side = std::clamp(now, -1.0, 1.0);
+            const double now = before + way_px * (1 / half_width_px);
+            place.side = clamped(now, -1, 1);
             const bool has_turned = before * place.side <= 0;
             place.since_turn_px = has_turned ? now * half_width_px : place.since_turn_px + way_px;
         }

@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "services/tracker/core/clamped.hpp"
+
 namespace pursuit::tracker {
 
 /// A straight piece of the model as lookups want it: where it begins, the way to its end, and what
@@ -180,10 +182,10 @@ class CandidateGrid {
         for (const std::uint16_t* const end = others + count; others != end; ++others) {
             const Nearest other = see(*others);
             const auto other_squared = std::bit_cast<std::int64_t>(other.squared_px);
-            const bool is_nearer = other_squared < squared;
-            best.piece = is_nearer ? other.piece : best.piece;
-            foot = is_nearer ? std::bit_cast<std::int64_t>(other.foot) : foot;
-            squared = is_nearer ? other_squared : squared;
+            const std::int64_t taken = -std::int64_t{other_squared < squared};
+            best.piece ^= (best.piece ^ other.piece) & static_cast<std::int32_t>(taken);
+            foot ^= (foot ^ std::bit_cast<std::int64_t>(other.foot)) & taken;
+            squared ^= (squared ^ other_squared) & taken;
         }
         best.squared_px = std::bit_cast<double>(squared);
         best.foot = std::bit_cast<double>(foot);
@@ -202,8 +204,8 @@ class CandidateGrid {
         const Segment& segment = segments_[piece];
         const double vx = x - segment.ax;
         const double vy = y - segment.ay;
-        // The first is 0 also of a point, whose `along` may be no number.
-        const double foot = std::min(std::max(0.0, metric.along(vx, vy, segment)), 1.0);
+        // 0 also of a point, whose `along` may be no number.
+        const double foot = clamped(metric.along(vx, vy, segment), 0, 1);
         return {piece, metric.squared(vx - foot * segment.dx, vy - foot * segment.dy), foot};
     }
 

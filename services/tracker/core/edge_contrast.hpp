@@ -50,13 +50,14 @@ class EdgeContrast {
     [[gnu::always_inline]] void count(std::int32_t piece, int polarity, bool is_subsequent,
                                       double share) {
         const auto i = static_cast<std::size_t>(polarity);
+        const auto subsequent = static_cast<double>(is_subsequent);
         events_[i] = std::min(events_[i] + share, most_events_of_all);
         if (events_[i] > 0) {
-            usual_share_[i] += share * ((is_subsequent ? 1 : 0) - usual_share_[i]) / events_[i];
+            usual_share_[i] += share * (subsequent - usual_share_[i]) / events_[i];
         }
         Counts& counts = pieces_[static_cast<std::size_t>(piece)];
         counts.events += share;
-        counts.subsequent += is_subsequent ? share : 0;
+        counts.subsequent += share * subsequent;
         if (counts.events >= most_events) {
             counts.events /= 2;
             counts.subsequent /= 2;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
+
+#include "services/tracker/core/clamped.hpp"
 
 namespace pursuit::tracker {
 
@@ -30,11 +31,10 @@ class EdgePolarity {
     [[nodiscard, gnu::always_inline]] Told tell(std::int32_t piece, int polarity,
                                                 double side) const {
         const Edge& edge = edges_[static_cast<std::size_t>(piece)];
-        const double told = polarity != 0 ? edge.forth : -edge.forth;
+        const double told = signs[polarity] * edge.forth;
         const double likelihood = 1 + side * edge.trust * told;
         // Nearly always it goes one way: nobody shall wait for a quotient then.
-        if (side == 1) return {told > 0 ? edge.agreed : edge.contradicted, likelihood};
-        if (side == -1) return {told < 0 ? -edge.agreed : -edge.contradicted, likelihood};
+        if (std::abs(side) == 1) return {side * edge.gone[side * told > 0], likelihood};
         return {(side * edge.trust + told) / likelihood, likelihood};
     }
 
@@ -42,31 +42,30 @@ class EdgePolarity {
     /// (−1 or 1).
     [[gnu::always_inline]] void learn(std::int32_t piece, int polarity, double side, double share) {
         Edge& edge = edges_[static_cast<std::size_t>(piece)];
-        const double forth =
-            edge.forth + memory * share * ((polarity != 0 ? side : -side) - edge.forth);
-        edge.forth = std::clamp(forth, -surest, surest);
+        const double forth = edge.forth + memory * share * (signs[polarity] * side - edge.forth);
+        edge.forth = clamped(forth, -surest, surest);
         if (std::abs(edge.forth - edge.weighed) > slack) edge.weigh();
     }
 
  private:
-    static constexpr double memory = 0.01;  // of an event: a few px of way
-    static constexpr double surest = 0.95;  // for noise and other edges make events as well
-    static constexpr double doubt = 0.2;    // of the way, where the polarity tells
-    static constexpr double slack = 0.01;   // of what the rest is worked out for
+    static constexpr double memory = 0.01;       // of an event: a few px of way
+    static constexpr double surest = 0.95;       // for noise and other edges make events as well
+    static constexpr double doubt = 0.2;         // of the way, where the polarity tells
+    static constexpr double signs[2] = {-1, 1};  // of OFF and ON
+    static constexpr double slack = 0.01;        // of what the rest is worked out for
 
     struct Edge {
         double forth = 0;  ///< −1 … 1: OFF … ON as the piece goes along its normal.
         double weighed = 0;
-        double trust = 1;   ///< Of the way that the piece is thought to go.
-        double agreed = 1;  ///< That way, given that the polarity agrees …
-        double contradicted = 1;
+        double trust = 1;         ///< Of the way that the piece is thought to go; that way, …
+        double gone[2] = {1, 1};  ///< … given that the polarity contradicts, and that it agrees.
 
         void weigh() {
             weighed = forth;
             const double sure = std::abs(forth);
             trust = 1 - doubt * sure;
-            agreed = (trust + sure) / (1 + trust * sure);
-            contradicted = (trust - sure) / (1 - trust * sure);
+            gone[0] = (trust - sure) / (1 - trust * sure);
+            gone[1] = (trust + sure) / (1 + trust * sure);
         }
     };
     std::vector<Edge> edges_;

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "services/tracker/core/clamped.hpp"
 #include "services/tracker/core/contour_place.hpp"
 #include "services/tracker/core/told_covariance.hpp"
 
@@ -279,7 +280,7 @@ double KalmanEstimator<kind>::lead_px(std::int32_t piece, int lead) const {
     const int first = lead & ~1;
     const double earlier_px =
         contrast_.earlier(piece, first / 2) * (leads_px(first) - leads_px(first + 1));
-    return std::clamp(leads_px(lead) + earlier_px, least_lead_px, most_lead_px);
+    return clamped(leads_px(lead) + earlier_px, least_lead_px, most_lead_px);
 }
 
 template <TransformKind kind>
@@ -312,14 +313,15 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     measured_.settled_side = 0;
     measured_.of_polarity = 1;
     if (!contour_.is_of_events()) {
+        // Where the edge turned back it is in the midst of the pixels that made its last events.
+        // (As of the piece's last event: which lead it is shall not wait for the way since.)
+        if (backlash_.has_turned(place.piece)) since_us = std::min(since_us, past.since_other_us);
         const Eigen::Vector2d middle(segment.ax + segment.dx / 2, segment.ay + segment.dy / 2);
         const double side = backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
         const auto told = edge_polarity_.tell(place.piece, polarity, side);
         h = told.gone;
         measured_.of_polarity = told.likelihood;
         if (backlash_.is_settled(place.piece)) measured_.settled_side = side;
-        // Where the edge turned back it is in the midst of the pixels that made its last events.
-        if (backlash_.has_turned(place.piece)) since_us = std::min(since_us, past.since_other_us);
     }
     const bool subsequent = static_cast<double>(since_us) < same_edge_us_;
     const int lead = 2 * polarity + (subsequent ? 1 : 0);

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "services/tracker/core/clamped.hpp"
+
 namespace pursuit::tracker {
 
 /// How events scatter about the contour that made them, leads and offsets taken into account: most
@@ -72,9 +74,9 @@ class MeasurementNoise {
     /// The event was the object's with probability `share`.
     void learn(double r_px, const Told& told, double share) {
         constexpr double per_usual = 1 / 1.3;
-        const double misfit = std::min(2 * r_px * r_px * told.half_per_variance, 9.0);
-        gain_ = std::clamp(gain_ * (1 + memory * share * (misfit * per_usual - 1)), least_gain,
-                           most_gain);
+        const double misfit = clamped(2 * r_px * r_px * told.half_per_variance, 0, 9);
+        gain_ =
+            clamped(gain_ * (1 + memory * share * (misfit * per_usual - 1)), least_gain, most_gain);
     }
 
     /// Of the variance, beside what is usual.
@@ -106,7 +108,7 @@ class MeasurementNoise {
     /// exp(−u), u ≥ 0: within a third of a percent to u = 4, and never less than 2e-8, far below
     /// the tail. By squaring, in fewer steps than the library's, and the same on every processor.
     static double fading(double u) {
-        const double v = std::min(u, 16.0) * (1.0 / 16);
+        const double v = clamped(u, 0, 16) * (1.0 / 16);
         double e = (1 - v) + v * v * (0.5 - v * (1.0 / 6));
         e *= e;
         e *= e;
