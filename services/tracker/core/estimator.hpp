@@ -49,6 +49,8 @@ class Estimator {
     virtual void set_visible_share(double share) { static_cast<void>(share); }
 
     /// The event's distance to the model in the image.
+    /// How long a pixel of the sensor is blind after an event, as far as is known.
+    virtual void set_blind_us(double) {}
     /// since_same_us: since the last event of the same pixel and polarity.
     virtual Approach approach(const Event& event, std::int64_t since_same_us) = 0;
 

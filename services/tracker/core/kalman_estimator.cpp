@@ -306,6 +306,15 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
 }
 
 template <TransformKind kind>
+void KalmanEstimator<kind>::tell_leads() {
+    constexpr bool is_size_known = kind == TransformKind::isometry;
+    lead_prior_.look(t_us_, filter_.lead_px(), speed_px_s_, clutter_.own_share(), is_size_known);
+    filter_.tell_leads(lead_prior_.weights(), lead_prior_.held_px(), LeadPrior::held_sigma_px);
+    filter_.tell_leads(lead_prior_.apart_weights(), lead_prior_.apart_px(),
+                       LeadPrior::apart_sigma_px);
+}
+
+template <TransformKind kind>
 bool KalmanEstimator<kind>::take(double weight) {
     const double r = measured_.r_px;
     const double likelihood = measured_.told.likelihood();
@@ -323,11 +332,7 @@ bool KalmanEstimator<kind>::take(double weight) {
         offsets_.learn(measured_.piece, r, share, speed_px_s_);
     }
     contrast_.count(measured_.piece, measured_.lead / 2, measured_.lead % 2 == 1, share);
-    if (lead_prior_.count(measured_.lead, share)) {
-        filter_.tell_leads(lead_prior_.weights(), lead_prior_.held_px(), LeadPrior::held_sigma_px);
-        filter_.tell_leads(lead_prior_.apart_weights(), lead_prior_.apart_px(),
-                           LeadPrior::apart_sigma_px);
-    }
+    if (lead_prior_.count(measured_.lead, share)) tell_leads();
     filter_.limit_leads(least_lead_px, most_lead_px);
     if constexpr (kind != TransformKind::isometry) measure_size();
     noise_.learn(r, measured_.told, share);

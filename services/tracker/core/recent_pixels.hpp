@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
 #include "services/common/event.hpp"
 #include "services/tracker/core/large_table.hpp"
+#include "services/tracker/core/refractory.hpp"
 
 namespace pursuit::tracker {
 
@@ -17,6 +20,7 @@ class RecentPixels {
     void restart(Geometry geometry) {
         width_ = geometry.width;
         last_us_.assign(std::size_t{2} * geometry.width * geometry.height, -never_us);
+        refractory_.restart();
     }
 
     /// Soon note() is called for this event: its pixel is fetched from memory meanwhile.
@@ -28,16 +32,32 @@ class RecentPixels {
 
     /// µs since the same pixel fired with the same polarity, and notes this event.
     std::int64_t note(const Event& event) {
-        std::int64_t& last_us =
-            last_us_[2 * (std::size_t{event.y} * width_ + event.x) + (event.polarity & 1U)];
-        const std::int64_t since_us = event.t_us - last_us;
-        last_us = event.t_us;
+        const std::size_t at =
+            2 * (std::size_t{event.y} * width_ + event.x) + (event.polarity & 1U);
+        const std::int64_t since_us = event.t_us - last_us_[at];
+        refractory_.see(std::min(since_us, event.t_us - last_us_[at ^ 1U]));
+        last_us_[at] = event.t_us;
         return since_us;
     }
+
+    /// Whether an edge that reaches this place at t_us will find its pixel blind.
+    [[nodiscard]] bool is_blind(const Eigen::Vector2d& p_px, double t_us) const {
+        if (!(p_px.x() >= 0 && p_px.y() >= 0)) return false;
+        const auto x = static_cast<std::size_t>(p_px.x() + 0.5);
+        const auto y = static_cast<std::size_t>(p_px.y() + 0.5);
+        const std::size_t at = 2 * (y * width_ + x);
+        if (x >= width_ || at >= last_us_.size()) return false;
+        const std::int64_t last_us = std::max(last_us_[at], last_us_[at + 1]);
+        return t_us - static_cast<double>(last_us) < blind_us();
+    }
+
+    /// How long a pixel is blind after an event, as far as its events tell.
+    [[nodiscard]] double blind_us() const { return refractory_.period_us(); }
 
  private:
     std::size_t width_ = 0;
     LargeTable<std::int64_t> last_us_;
+    Refractory refractory_;
 };
 
 }  // namespace pursuit::tracker

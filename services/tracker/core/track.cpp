@@ -255,7 +255,8 @@ Pose Track::pose() const {
     return is_acquiring_ ? acquisition_->pose() : estimator_->pose();
 }
 
-void Track::reach_time(std::int64_t t_us) {
+void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
+    estimator_->set_blind_us(pixels.blind_us());
     if (adrift_since_us_ < 0) adrift_since_us_ = t_us;
     if (is_covered_) return;
     if (!is_acquiring_ && grip_.is_counting()) weigh(silence_.heard_us());

@@ -15,6 +15,7 @@
 #include "services/tracker/core/outline.hpp"
 #include "services/tracker/core/pose_record.hpp"
 #include "services/tracker/core/reach_map.hpp"
+#include "services/tracker/core/recent_pixels.hpp"
 #include "services/tracker/core/registration.hpp"
 #include "services/tracker/core/shape_search.hpp"
 #include "services/tracker/core/silence.hpp"
@@ -59,7 +60,7 @@ class Track {
     [[nodiscard]] std::uint64_t events_used() const { return events_used_; }
 
     /// Time goes on: to be called every half ms in which any events come, the object's or not.
-    void reach_time(std::int64_t t_us);
+    void reach_time(std::int64_t t_us, const RecentPixels& pixels);
     /// Where events until t_us can concern the object.
     [[nodiscard]] Reach reach(std::int64_t t_us) const;
 
