@@ -118,7 +118,7 @@ void Cover::close_window(const Outline& outline, const Pose& pose, const Velocit
     for (std::size_t sector = 0; sector < sectors; ++sector) {
         double of_sector = 0;
         for (std::size_t i = begin_[sector]; i < begin_[sector + 1]; ++i) {
-            if (outline.is_hidden(piece_[i])) continue;
+            if (!outline.can_be_seen(piece_[i])) continue;
             const auto part = static_cast<Eigen::Index>(i);
             // Not the vectors' own root: with AVX-512 that is another one.
             of_sector += across(part) + sideways_share * std::sqrt(length2(part));

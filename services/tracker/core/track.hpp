@@ -184,6 +184,7 @@ class Track {
     std::int64_t grip_lost_us_ = 0;
     std::int64_t acquisition_began_us_ = 0;
     std::int64_t trial_until_us_ = -1;  // of an offered pose
+    std::int64_t look_for_blind_us_ = 0;
     std::int64_t acquired_us_ = never_us;
     std::int64_t doubted_us_ = never_us;  // events spoke against the pose
     std::int64_t emerged_us_ = -1;     // came out from under another; not yet confirmed by events
