@@ -122,7 +122,7 @@ void Cover::close_window(const Outline& outline, const Pose& pose, const Velocit
     for (std::size_t sector = 0; sector < sectors; ++sector) {
         double of_sector = 0;
         for (std::size_t i = begin_[sector]; i < begin_[sector + 1]; ++i) {
-            if (!outline.is_hidden(piece_[i])) of_sector += shows(static_cast<Eigen::Index>(i));
+            if (outline.can_be_seen(piece_[i])) of_sector += shows(static_cast<Eigen::Index>(i));
         }
         rate[sector] = of_sector;
         sum += of_sector;

@@ -31,7 +31,7 @@ class Cover {
     /// Whether enough were counted for close_window().
     [[nodiscard]] bool is_due() const { return events_ >= window_events; }
     /// Weighs what was counted, under this pose and velocity. Nothing is expected of what the
-    /// outline says is hidden.
+    /// outline says cannot be seen.
     void close_window(const Outline& outline, const Pose& pose, const Velocity& velocity);
 
     /// The share of the expected events whose parts of the contour got a quarter or more of theirs,

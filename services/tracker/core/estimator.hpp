@@ -47,6 +47,9 @@ class Estimator {
     /// How much of what the object's motion would show is not hidden, above 0 … 1.
     virtual void set_visible_share(double share) { static_cast<void>(share); }
 
+    /// How long a pixel of the sensor is blind after an event, as far as is known.
+    virtual void set_blind_us(double blind_us) { static_cast<void>(blind_us); }
+
     /// The event's distance to the model in the image; null beyond the gate. Holds until the next.
     virtual const Approach* approach(const Event& event, const PixelPast& past) = 0;
 

@@ -215,7 +215,7 @@ void EventLoop::wake(std::int64_t t_us) {
 void EventLoop::go_round(std::int64_t t_us) {
     next_round_us_ = t_us + round_us;
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
-        tracks_[i].reach_time(t_us);
+        tracks_[i].reach_time(t_us, recent_);
         reach_map_.place(i, tracks_[i].reach(next_round_us_));
     }
 }

@@ -346,6 +346,16 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
 }
 
 template <TransformKind kind>
+void KalmanEstimator<kind>::tell_leads() {
+    constexpr bool is_size_known = kind == TransformKind::isometry;
+    lead_prior_.look(t_us_, filter_.lead_px(), speed_px_s_, clutter_.own_share(), is_size_known);
+    filter_.tell_leads(lead_prior_.weights(), lead_prior_.held_px(), LeadPrior::held_sigma_px);
+    filter_.tell_leads(lead_prior_.apart_weights(), lead_prior_.apart_px(),
+                       LeadPrior::apart_sigma_px);
+    filter_.limit_leads(least_lead_px, most_lead_px);
+}
+
+template <TransformKind kind>
 bool KalmanEstimator<kind>::take(double weight) {
     const double r = measured_.r_px;
     const MeasurementNoise::Told& told = measured_.told;
@@ -385,12 +395,7 @@ template <TransformKind kind>
         edge_polarity_.learn(near_.piece, measured_.lead / 2, measured_.settled_side, share);
     }
     contrast_.count(near_.piece, measured_.lead / 2, measured_.lead % 2 == 1, share);
-    if (lead_prior_.count(measured_.lead, share)) {
-        filter_.tell_leads(lead_prior_.weights(), lead_prior_.held_px(), LeadPrior::held_sigma_px);
-        filter_.tell_leads(lead_prior_.apart_weights(), lead_prior_.apart_px(),
-                           LeadPrior::apart_sigma_px);
-        filter_.limit_leads(least_lead_px, most_lead_px);
-    }
+    if (lead_prior_.count(measured_.lead, share)) tell_leads();
 }
 
 template <TransformKind kind>

@@ -30,6 +30,7 @@ class KalmanEstimator : public Estimator {
     void resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity,
                 double way_px) override;
     void set_visible_share(double share) override { visible_share_ = share; }
+    void set_blind_us(double blind_us) override { lead_prior_.set_blind_us(blind_us); }
     const Approach* approach(const Event& event, const PixelPast& past) override;
     [[nodiscard]] double likelihood() const override {
         return measured_.told.likelihood() * measured_.of_polarity;
@@ -84,6 +85,8 @@ class KalmanEstimator : public Estimator {
     /// Among strong noise, every few ms.
     void look_out(std::int64_t t_us);
     void measure_size();
+    /// What is known of the leads besides the events.
+    void tell_leads();
     [[nodiscard]] double effective_length_px() const;
 
     /// How far ahead of the piece an event of this kind comes. (What it says of the leads is taken

@@ -4,6 +4,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cstdint>
+
+#include "services/tracker/core/lead_physics.hpp"
 
 namespace pursuit::tracker {
 
@@ -13,13 +16,16 @@ namespace pursuit::tracker {
 /// bright, late. In order: OFF first, OFF subsequent, ON first, ON subsequent.
 ///
 /// What the four have in common the events hardly tell from the pose itself (only by edges that lie
-/// aslant, which fire a tenth of a pixel elsewhere for reasons of their own). So it is held: where
-/// an edge makes several events in a pixel, their mean, ON and OFF alike, is 0.14 ± 0.12 px behind
-/// it, whatever the contrast; where the refractory period lets only the first one through, the
-/// leads are the greater, the farther ON and OFF are apart: 0.8 of it and 0.10 px more, as discs
-/// show that turn at 670 to 3000 rpm. And how far ON is ahead of OFF they hardly tell from the size
-/// of an object that may change it: an edge in log intensity lies towards its dark side, by 0.43 px
-/// from the one to the other in the mean over contrasts, 0.50 where only first events come.
+/// aslant, which fire a tenth of a pixel elsewhere for reasons of their own). So it is held at what
+/// physics tells from how many events an edge makes in a pixel (LeadPhysics): 0.1 to 0.4 px behind
+/// the edge where it makes several, or one for a high threshold. Where none is subsequent because
+/// pixels are blind for too long, or much of what comes is noise, that tells nothing. There the
+/// mean of several is 0.14 px behind the edge; those of one alone are the greater, the farther ON
+/// and OFF are apart: 0.8 of it and 0.10 px more, as discs show that turn at 670 to 3000 rpm.
+///
+/// And how far ON is ahead of OFF they hardly tell from the size of an object that may change it:
+/// an edge in log intensity lies towards its dark side, by 0.43 px from the one to the other in the
+/// mean over contrasts, 0.50 where only first events come.
 class LeadPrior {
  public:
     static const Eigen::Vector4d& mean_px() {
@@ -41,16 +47,42 @@ class LeadPrior {
     static constexpr double held_sigma_px = 0.15;
     static constexpr double apart_sigma_px = 0.12;
 
-    void restart() { *this = LeadPrior(); }
+    void restart() {
+        const double blind_us = blind_us_;
+        *this = LeadPrior();
+        blind_us_ = blind_us;
+    }
+
+    /// How long a pixel of the sensor is blind after an event, as far as is known.
+    void set_blind_us(double blind_us) { blind_us_ = blind_us; }
 
     /// An event of this lead that is the object's with probability `share`; true where what is held
     /// shall be told to the filter again.
     bool count(int lead, double share) {
-        double& subsequent = subsequent_share_[static_cast<std::size_t>(lead / 2)];
-        subsequent += memory * share * (lead % 2 - subsequent);
+        const auto polarity = static_cast<std::size_t>(lead / 2);
+        double& subsequent = subsequent_share_[polarity];
+        events_[polarity] = std::min(events_[polarity] + share, most_events);
+        if (events_[polarity] > 0) {
+            subsequent += share * (lead % 2 - subsequent) / events_[polarity];
+        }
         if (++since_told_ < every_events) return false;
         since_told_ = 0;
         return true;
+    }
+
+    /// The leads are thought to be these, the object so fast, and of what is on its contour so much
+    /// its own.
+    void look(std::int64_t t_us, const Eigen::Vector4d& lead_px, double speed_px_s,
+              double own_share, bool is_size_known) {
+        blind_px_ += (is_told_ ? 0.1 : 1) * (blind_us_ * 1e-6 * speed_px_s - blind_px_);
+        own_share_ = own_share;
+        is_size_known_ = is_size_known;
+        if (t_us < due_us_) return;
+        told_ = LeadPhysics::tell(
+            {subsequent_share_[0], subsequent_share_[1], lead_px, blind_px_, is_size_known});
+        is_told_ = true;
+        due_us_ = t_us + wait_us_;
+        wait_us_ = std::min(2 * wait_us_, longest_wait_us);
     }
 
     /// What is held of what they have in common: weights() · leads = held_px().
@@ -58,7 +90,11 @@ class LeadPrior {
         const auto [off, on] = subsequent_share_;
         const Eigen::Vector4d all(0.5 * (1 - off), 0.5 * off, 0.5 * (1 - on), 0.5 * on);
         const Eigen::Vector4d first_only(1.3, 0, -0.3, 0);
-        return several() * all + (1 - several()) * first_only;
+        const Eigen::Vector4d usual = several() * all + (1 - several()) * first_only;
+        return by_physics(all, usual);
+    }
+    [[nodiscard]] double held_px() const {
+        return by_physics(told_.common_px, several() * -0.14 + (1 - several()) * 0.10);
     }
     /// How far ON is ahead of OFF, over all events: where the object may change its size, the
     /// events hardly tell this from it.
@@ -66,23 +102,52 @@ class LeadPrior {
         const auto [off, on] = subsequent_share_;
         return {off - 1, -off, 1 - on, on};
     }
-    [[nodiscard]] double apart_px() const { return several() * 0.43 + (1 - several()) * 0.50; }
-
-    [[nodiscard]] double held_px() const { return several() * -0.14 + (1 - several()) * 0.10; }
+    [[nodiscard]] double apart_px() const {
+        const double usual_px = several() * 0.43 + (1 - several()) * 0.50;
+        return is_size_known_ ? by_physics(told_.apart_px, usual_px) : usual_px;
+    }
 
  private:
+    static double step(double x) {
+        const double u = std::clamp(x, 0.0, 1.0);
+        return u * u * (3 - 2 * u);
+    }
+    /// 1 where the physics can tell: subsequent events come, or would come if the threshold were
+    /// low, because pixels see again soon enough. And the events are the object's own: noise looks
+    /// like first ones.
+    [[nodiscard]] double tells() const {
+        if (!is_told_) return 0;
+        const double share = (subsequent_share_[0] + subsequent_share_[1]) / 2;
+        const double seen = std::max(step((share - 0.05) / 0.1), 1 - step((blind_px_ - 1.4) / 0.5));
+        return seen * step((own_share_ - 0.7) / 0.2);
+    }
+    template <typename Value>
+    [[nodiscard]] Value by_physics(const Value& told, const Value& usual) const {
+        const double tells = this->tells();
+        return tells * told + (1 - tells) * usual;
+    }
     /// 0 where an edge makes one event in a pixel … 1 where it makes two and more.
     [[nodiscard]] double several() const {
         const double share = (subsequent_share_[0] + subsequent_share_[1]) / 2;
-        const double x = std::clamp((share - 0.1) / 0.3, 0.0, 1.0);
-        return x * x * (3 - 2 * x);
+        return step((share - 0.1) / 0.3);
     }
 
-    static constexpr double memory = 0.003;
+    static constexpr double most_events = 330;
     static constexpr int every_events = 100;
+    static constexpr std::int64_t first_wait_us = 500;
+    static constexpr std::int64_t longest_wait_us = 20'000;
 
-    std::array<double, 2> subsequent_share_{};  // OFF, ON
+    std::array<double, 2> events_{};  // OFF, ON
+    std::array<double, 2> subsequent_share_{};
     int since_told_ = 0;
+    double blind_us_ = 0;
+    double blind_px_ = 0;
+    double own_share_ = 1;
+    LeadPhysics::Told told_;
+    bool is_told_ = false;
+    bool is_size_known_ = false;
+    std::int64_t wait_us_ = first_wait_us;
+    std::int64_t due_us_ = 0;
 };
 
 }  // namespace pursuit::tracker

@@ -20,6 +20,7 @@ class Outline {
         Eigen::Vector2d along_px = Eigen::Vector2d::Zero();   ///< Its direction, as long as it is.
         double events = 0;       ///< Since the last clear(), by their weights.
         bool is_hidden = false;  ///< By another object, as far as known.
+        double blind = 0;        ///< How often it comes over blind pixels of late, 0 … 1.
     };
 
     Outline() = default;
@@ -56,11 +57,19 @@ class Outline {
 
     [[nodiscard]] std::vector<Part>& parts() { return parts_; }
     [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
-    [[nodiscard]] bool is_hidden(std::int32_t piece) const {
-        return parts_[part_of_[static_cast<std::size_t>(piece)]].is_hidden;
+    [[nodiscard]] bool is_hidden(std::int32_t piece) const { return part_of(piece).is_hidden; }
+    /// Whether this piece can make events: neither is it hidden nor are the pixels blind that it
+    /// comes over.
+    [[nodiscard]] bool can_be_seen(std::int32_t piece) const {
+        const Part& part = part_of(piece);
+        return !part.is_hidden && part.blind < 0.5;
     }
 
  private:
+    [[nodiscard]] const Part& part_of(std::int32_t piece) const {
+        return parts_[part_of_[static_cast<std::size_t>(piece)]];
+    }
+
     std::vector<Part> parts_;
     std::vector<std::uint16_t> part_of_;  // by piece
 };

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 
 #include "services/common/event.hpp"
 #include "services/tracker/core/large_table.hpp"
 #include "services/tracker/core/pixel_past.hpp"
+#include "services/tracker/core/refractory.hpp"
 
 namespace pursuit::tracker {
 
@@ -15,6 +18,7 @@ class RecentPixels {
     void restart(Geometry geometry) {
         width_ = geometry.width;
         last_us_.assign(std::size_t{2} * geometry.width * geometry.height, -PixelPast::never_us);
+        refractory_.restart();
     }
 
     /// Soon note() is called for this event: its pixel is fetched from memory meanwhile.
@@ -30,13 +34,29 @@ class RecentPixels {
         const std::size_t polarity = event.polarity & 1U;
         std::int64_t& last_us = last_us_[pixel + polarity];
         const PixelPast past{event.t_us - last_us, event.t_us - last_us_[pixel + (polarity ^ 1U)]};
+        refractory_.see(std::min(past.since_same_us, past.since_other_us));
         last_us = event.t_us;
         return past;
     }
 
+    /// Whether an edge that reaches this place at t_us will find its pixel blind.
+    [[nodiscard]] bool is_blind(const Eigen::Vector2d& p_px, double t_us) const {
+        if (!(p_px.x() >= 0 && p_px.y() >= 0)) return false;
+        const auto x = static_cast<std::size_t>(p_px.x() + 0.5);
+        const auto y = static_cast<std::size_t>(p_px.y() + 0.5);
+        const std::size_t at = 2 * (y * width_ + x);
+        if (x >= width_ || at >= last_us_.size()) return false;
+        const std::int64_t last_us = std::max(last_us_[at], last_us_[at + 1]);
+        return t_us - static_cast<double>(last_us) < blind_us();
+    }
+
+    /// How long a pixel is blind after an event, as far as its events tell.
+    [[nodiscard]] double blind_us() const { return refractory_.period_us(); }
+
  private:
     std::size_t width_ = 0;
     LargeTable<std::int64_t> last_us_;
+    Refractory refractory_;
 };
 
 }  // namespace pursuit::tracker

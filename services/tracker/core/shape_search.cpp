@@ -51,7 +51,7 @@ ShapeSearch::ShapeSearch(const Contour& contour, const Outline& outline)
     : radius_px_(contour.radius_px()) {
     const std::vector<Piece>& pieces = contour.pieces().pieces();
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        if (outline.is_hidden(static_cast<std::int32_t>(i))) continue;
+        if (!outline.can_be_seen(static_cast<std::int32_t>(i))) continue;
         pieces_.push_back(pieces[i]);
         length_px_ += std::hypot(pieces[i].bx - pieces[i].ax, pieces[i].by - pieces[i].ay);
     }

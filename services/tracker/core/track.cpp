@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "services/tracker/core/blind_parts.hpp"
 #include "services/tracker/core/where_to_look.hpp"
 
 namespace pursuit::tracker {
@@ -18,6 +19,8 @@ constexpr std::int64_t acquisition_us = 150'000;
 constexpr std::int64_t trial_us = 80'000;
 constexpr std::int64_t unaided_us = 30'000;
 constexpr double trial_gate_px = 6;
+
+constexpr std::int64_t look_for_blind_every_us = 2'000;
 
 // What is silent may have gone so far meanwhile.
 constexpr double unseen_way_px = 5;
@@ -97,6 +100,7 @@ void Track::begin() {
     silence_.restart();
     emerges_ = false;
     emerged_us_ = emerged_at_us_ = -1;
+    look_for_blind_us_ = 0;
     acquired_us_ = doubted_us_ = never_us;
     trial_until_us_ = -1;
     visible_share_ = 1;
@@ -123,6 +127,7 @@ void Track::begin_stream() {
     has_moved_ = false;
     emerges_ = false;
     emerged_us_ = emerged_at_us_ = -1;
+    look_for_blind_us_ = 0;
     if (doubt_.is_open()) begin_doubt(0, start_confirmations, 0);
     outline_.clear();
     tally_.begin_stream();
@@ -255,11 +260,17 @@ Pose Track::pose() const {
     return is_acquiring_ ? acquisition_->pose() : estimator_->pose();
 }
 
-void Track::reach_time(std::int64_t t_us) {
+void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
+    estimator_->set_blind_us(pixels.blind_us());
     if (adrift_since_us_ < 0) adrift_since_us_ = t_us;
     if (is_covered_) return;
     if (!is_acquiring_ && grip_.is_counting()) weigh(silence_.heard_us());
     if (!is_acquiring_) {
+        if (t_us >= look_for_blind_us_) {
+            look_for_blind_us_ = t_us + look_for_blind_every_us;
+            look_for_blind_parts(t_us, estimator_->pose(), estimator_->velocity(), radius_px(),
+                                 pixels, outline_);
+        }
         grip_.look_around(t_us, outline_, estimator_->pose(), estimator_->velocity());
     }
     if (vanishing_.is_gone(t_us)) {

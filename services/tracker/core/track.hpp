@@ -15,6 +15,7 @@
 #include "services/tracker/core/outline.hpp"
 #include "services/tracker/core/pose_record.hpp"
 #include "services/tracker/core/reach_map.hpp"
+#include "services/tracker/core/recent_pixels.hpp"
 #include "services/tracker/core/registration.hpp"
 #include "services/tracker/core/shape_search.hpp"
 #include "services/tracker/core/silence.hpp"
@@ -59,7 +60,7 @@ class Track {
     [[nodiscard]] std::uint64_t events_used() const { return events_used_; }
 
     /// Time goes on: to be called every half ms in which any events come, the object's or not.
-    void reach_time(std::int64_t t_us);
+    void reach_time(std::int64_t t_us, const RecentPixels& pixels);
     /// Where events until t_us can concern the object.
     [[nodiscard]] Reach reach(std::int64_t t_us) const;
 
@@ -184,6 +185,7 @@ class Track {
     std::int64_t grip_lost_us_ = 0;
     std::int64_t acquisition_began_us_ = 0;
     std::int64_t trial_until_us_ = -1;  // of an offered pose
+    std::int64_t look_for_blind_us_ = 0;
     std::int64_t acquired_us_ = never_us;
     std::int64_t doubted_us_ = never_us;  // events spoke against the pose
     std::int64_t emerged_us_ = -1;     // came out from under another; not yet confirmed by events

@@ -63,8 +63,23 @@ TEST(Backlash, of_a_piece_that_trembles_on_its_way_is_settled) {
     EXPECT_FALSE(backlash.has_turned(0));
 }
 
-TEST(LeadPrior, holds_the_first_leads_where_no_other_come_and_the_mean_of_all_where_they_do) {
+TEST(LeadPrior, goes_by_physics_where_pixels_see_again_soon_and_noise_is_rare) {
+    const auto weights = [](double blind_us, double own_share) {
+        LeadPrior prior;
+        prior.set_blind_us(blind_us);
+        prior.look(1000, LeadPrior::mean_px(), 1000, own_share, true);
+        return prior.weights();
+    };
+    const Eigen::Vector4d by_physics(0.5, 0, 0.5, 0);
+    EXPECT_EQ(weights(100, 1), by_physics);
+    EXPECT_NE(weights(5000, 1), by_physics);
+    EXPECT_NE(weights(100, 0.5), by_physics);
+}
+
+TEST(LeadPrior, holds_the_first_leads_where_blind_pixels_make_no_other_and_else_the_mean_of_all) {
     LeadPrior prior;
+    prior.set_blind_us(5000);
+    prior.look(1000, LeadPrior::mean_px(), 1000, 1, true);
     EXPECT_EQ(prior.weights(), Eigen::Vector4d(1.3, 0, -0.3, 0));
     // Two subsequent events for each first one, ON and OFF.
     for (int i = 0; i < 30'000; ++i) {
@@ -137,6 +152,8 @@ TEST(Leads, are_none_of_a_contour_that_was_told_by_events_itself) {
     EXPECT_NEAR(ahead_px, 0, 0.1);
     // What was drawn is expected elsewhere, by its leads.
     EXPECT_GT(std::abs(ahead_of_its_events_px(outline) - ahead_px), 0.05);
+    // What was drawn has them.
+    EXPECT_NE(ahead_of_its_events_px(outline), ahead_px);
 }
 
 /// Events a second on the contour and beside it, drawn at random, for some time.
