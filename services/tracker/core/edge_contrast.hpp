@@ -27,7 +27,7 @@ class EdgeContrast {
  public:
     void restart(std::size_t pieces) {
         pieces_.assign(pieces, Counts{});
-        usual_share_ = events_ = {};
+        usual_share_ = events_ = per_event_ = {};
         of_speed_ = of_width;
     }
 
@@ -51,10 +51,11 @@ class EdgeContrast {
                                       double share) {
         const auto i = static_cast<std::size_t>(polarity);
         const auto subsequent = static_cast<double>(is_subsequent);
-        events_[i] = std::min(events_[i] + share, most_events_of_all);
-        if (events_[i] > 0) {
-            usual_share_[i] += share * (subsequent - usual_share_[i]) / events_[i];
+        if (events_[i] < most_events_of_all) {
+            events_[i] += share;
+            per_event_[i] = events_[i] > 0 ? 1 / events_[i] : 0;
         }
+        usual_share_[i] += share * per_event_[i] * (subsequent - usual_share_[i]);
         Counts& counts = pieces_[static_cast<std::size_t>(piece)];
         counts.events += share;
         counts.subsequent += share * subsequent;
@@ -81,6 +82,7 @@ class EdgeContrast {
     double of_speed_ = of_width;
     std::array<double, 2> usual_share_{};  // OFF, ON
     std::array<double, 2> events_{};
+    std::array<double, 2> per_event_{};
 };
 
 }  // namespace pursuit::tracker

@@ -48,6 +48,9 @@ constexpr std::array blind_ways = {0.0, 0.1, 0.2, 0.35, 0.55, 0.8, 1.2, 1.8, 2.6
 // edge makes events as fast as it moves across itself.
 constexpr std::array normal_speeds = {0.2, 0.4, 0.6, 0.8, 1.0};
 
+// Beside what fits at all, this weighs less than a millionth.
+constexpr double hopeless = 60;
+
 double squared(double x) { return x * x; }
 
 /// What can be seen of the events of one sensor and edge, lengths in units of the blur.
@@ -164,6 +167,7 @@ LeadPhysics::Told LeadPhysics::tell(const Seen& seen) {
                 if (seen.is_size_known) {
                     misfit += squared((signs.apart * blur_px - apart_px) / apart_sigma_px);
                 }
+                if (misfit > hopeless) continue;
                 const double weight = prior * std::exp(-0.5 * misfit);
                 sum += weight;
                 common += weight * signs.common * blur_px;

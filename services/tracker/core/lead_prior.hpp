@@ -61,10 +61,9 @@ class LeadPrior {
     bool count(int lead, double share) {
         const auto polarity = static_cast<std::size_t>(lead / 2);
         double& subsequent = subsequent_share_[polarity];
-        events_[polarity] = std::min(events_[polarity] + share, most_events);
-        if (events_[polarity] > 0) {
-            subsequent += share * (lead % 2 - subsequent) / events_[polarity];
-        }
+        Mean& mean = mean_[polarity];
+        mean.count(share);
+        subsequent += share * mean.per_event * (lead % 2 - subsequent);
         if (++since_told_ < every_events) return false;
         since_told_ = 0;
         return true;
@@ -132,12 +131,23 @@ class LeadPrior {
         return step((share - 0.1) / 0.3);
     }
 
-    static constexpr double most_events = 330;
+    /// Of what a mean is over: 1 over the events so far, at most so many.
+    struct Mean {
+        static constexpr double most_events = 330;
+        double events = 0;
+        double per_event = 0;
+
+        void count(double share) {
+            if (events >= most_events) return;
+            events += share;
+            per_event = events > 0 ? 1 / events : 0;
+        }
+    };
     static constexpr int every_events = 100;
     static constexpr std::int64_t first_wait_us = 500;
-    static constexpr std::int64_t longest_wait_us = 20'000;
+    static constexpr std::int64_t longest_wait_us = 80'000;
 
-    std::array<double, 2> events_{};  // OFF, ON
+    std::array<Mean, 2> mean_;  // OFF, ON
     std::array<double, 2> subsequent_share_{};
     int since_told_ = 0;
     double blind_us_ = 0;
