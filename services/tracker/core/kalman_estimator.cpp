@@ -308,7 +308,8 @@ Approach KalmanEstimator<kind>::approach(const Event& event, std::int64_t since_
 template <TransformKind kind>
 void KalmanEstimator<kind>::tell_leads() {
     constexpr bool is_size_known = kind == TransformKind::isometry;
-    lead_prior_.look(t_us_, filter_.lead_px(), speed_px_s_, clutter_.own_share(), is_size_known);
+    lead_prior_.look(t_us_, filter_.lead_px(), speed_px_s_, {clutter_.own_share(), noise_.gain()},
+                     is_size_known);
     filter_.tell_leads(lead_prior_.weights(), lead_prior_.held_px(), LeadPrior::held_sigma_px);
     filter_.tell_leads(lead_prior_.apart_weights(), lead_prior_.apart_px(),
                        LeadPrior::apart_sigma_px);
