@@ -49,6 +49,7 @@ KalmanEstimator<kind>::KalmanEstimator(const Contour& contour, const ObjectParam
       bend_(contour_),
       offsets_(contour_, kind),
       watch_(contour_) {
+    LeadPhysics::prepare();
     set_parameters(parameters);
     restart({}, {});
 }
@@ -348,7 +349,8 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
 template <TransformKind kind>
 void KalmanEstimator<kind>::tell_leads() {
     constexpr bool is_size_known = kind == TransformKind::isometry;
-    lead_prior_.look(t_us_, filter_.lead_px(), speed_px_s_, clutter_.own_share(), is_size_known);
+    lead_prior_.look(t_us_, filter_.lead_px(), speed_px_s_, {clutter_.own_share(), noise_.gain()},
+                     is_size_known);
     filter_.tell_leads(lead_prior_.weights(), lead_prior_.held_px(), LeadPrior::held_sigma_px);
     filter_.tell_leads(lead_prior_.apart_weights(), lead_prior_.apart_px(),
                        LeadPrior::apart_sigma_px);

@@ -127,6 +127,11 @@ std::vector<Hypothesis> make_hypotheses() {
     return hypotheses;
 }
 
+const std::vector<Hypothesis>& all_hypotheses() {
+    static const std::vector<Hypothesis> hypotheses = make_hypotheses();
+    return hypotheses;
+}
+
 // Of two shares of subsequent events, how much what lies between them and the first ones tells.
 double known(double seen_share, double told_share) {
     if (seen_share < least_share || told_share < least_share) return 0;
@@ -135,8 +140,10 @@ double known(double seen_share, double told_share) {
 
 }  // namespace
 
+void LeadPhysics::prepare() { static_cast<void>(all_hypotheses()); }
+
 LeadPhysics::Told LeadPhysics::tell(const Seen& seen) {
-    static const std::vector<Hypothesis> hypotheses = make_hypotheses();
+    const std::vector<Hypothesis>& hypotheses = all_hypotheses();
     const Eigen::Vector4d& lead_px = seen.lead_px;
     const double off_between_px = lead_px(0) - lead_px(1);
     const double on_between_px = lead_px(2) - lead_px(3);

@@ -31,6 +31,9 @@ class LeadPhysics {
     };
 
     [[nodiscard]] static Told tell(const Seen& seen);
+    /// Works out what sensors and edges there may be: some ms, the first time alone. Otherwise the
+    /// first tell() does.
+    static void prepare();
 };
 
 }  // namespace pursuit::tracker

@@ -69,12 +69,16 @@ class LeadPrior {
         return true;
     }
 
-    /// The leads are thought to be these, the object so fast, and of what is on its contour so much
-    /// its own.
+    /// How much the events can be relied on for what pixels and edges make.
+    struct Clarity {
+        double own_share = 1;     ///< Of what is on the contour.
+        double noise_gain = 0.5;  ///< MeasurementNoise::gain(): how far its events scatter.
+    };
+    /// The leads are thought to be these, and the object so fast.
     void look(std::int64_t t_us, const Eigen::Vector4d& lead_px, double speed_px_s,
-              double own_share, bool is_size_known) {
+              const Clarity& clarity, bool is_size_known) {
         blind_px_ += (is_told_ ? 0.1 : 1) * (blind_us_ * 1e-6 * speed_px_s - blind_px_);
-        own_share_ = own_share;
+        clarity_ = clarity;
         is_size_known_ = is_size_known;
         if (t_us < due_us_) return;
         told_ = LeadPhysics::tell(
@@ -112,13 +116,15 @@ class LeadPrior {
         return u * u * (3 - 2 * u);
     }
     /// 1 where the physics can tell: subsequent events come, or would come if the threshold were
-    /// low, because pixels see again soon enough. And the events are the object's own: noise looks
-    /// like first ones.
+    /// low, because pixels see again soon enough. And the events are the object's own (noise looks
+    /// like first ones), and do not scatter by more than pixels and edges alone make them: where
+    /// their stamps jitter by the time in which an edge passes, intervals tell nothing.
     [[nodiscard]] double tells() const {
         if (!is_told_) return 0;
         const double share = (subsequent_share_[0] + subsequent_share_[1]) / 2;
         const double seen = std::max(step((share - 0.05) / 0.1), 1 - step((blind_px_ - 1.4) / 0.5));
-        return seen * step((own_share_ - 0.7) / 0.2);
+        return seen * step((clarity_.own_share - 0.7) / 0.2) *
+               step((1.0 - clarity_.noise_gain) / 0.3);
     }
     template <typename Value>
     [[nodiscard]] Value by_physics(const Value& told, const Value& usual) const {
@@ -152,7 +158,7 @@ class LeadPrior {
     int since_told_ = 0;
     double blind_us_ = 0;
     double blind_px_ = 0;
-    double own_share_ = 1;
+    Clarity clarity_;
     LeadPhysics::Told told_;
     bool is_told_ = false;
     bool is_size_known_ = false;

@@ -63,23 +63,24 @@ TEST(Backlash, of_a_piece_that_trembles_on_its_way_is_settled) {
     EXPECT_FALSE(backlash.has_turned(0));
 }
 
-TEST(LeadPrior, goes_by_physics_where_pixels_see_again_soon_and_noise_is_rare) {
-    const auto weights = [](double blind_us, double own_share) {
+TEST(LeadPrior, goes_by_physics_where_pixels_see_again_soon_and_noise_and_jitter_are_small) {
+    const auto weights = [](double blind_us, double own_share, double gain = 0.5) {
         LeadPrior prior;
         prior.set_blind_us(blind_us);
-        prior.look(1000, LeadPrior::mean_px(), 1000, own_share, true);
+        prior.look(1000, LeadPrior::mean_px(), 1000, {own_share, gain}, true);
         return prior.weights();
     };
     const Eigen::Vector4d by_physics(0.5, 0, 0.5, 0);
     EXPECT_EQ(weights(100, 1), by_physics);
     EXPECT_NE(weights(5000, 1), by_physics);
     EXPECT_NE(weights(100, 0.5), by_physics);
+    EXPECT_NE(weights(100, 1, 2.5), by_physics);
 }
 
 TEST(LeadPrior, holds_the_first_leads_where_blind_pixels_make_no_other_and_else_the_mean_of_all) {
     LeadPrior prior;
     prior.set_blind_us(5000);
-    prior.look(1000, LeadPrior::mean_px(), 1000, 1, true);
+    prior.look(1000, LeadPrior::mean_px(), 1000, {}, true);
     EXPECT_EQ(prior.weights(), Eigen::Vector4d(1.3, 0, -0.3, 0));
     // Two subsequent events for each first one, ON and OFF.
     for (int i = 0; i < 30'000; ++i) {
