@@ -26,7 +26,7 @@ void look_for_blind_parts(std::int64_t t_us, const Pose& pose, const Velocity& v
     const double least_px_s = least_blind_px / (pixels.blind_us() * 1e-6);
     const double fastest_px_s = v.norm() + rate_of_d.norm() * radius_px;
     if (fastest_px_s < least_px_s) {
-        for (Outline::Part& part : outline.parts()) part.blind *= 1 - memory;
+        outline.fade_blind(1 - memory);
         return;
     }
     for (Outline::Part& part : outline.parts()) {
@@ -39,7 +39,7 @@ void look_for_blind_parts(std::int64_t t_us, const Pose& pose, const Velocity& v
             is_blind = pixels.is_blind(pose.t_px + d + in_s * speed,
                                        static_cast<double>(t_us) + in_s * 1e6);
         }
-        part.blind += memory * ((is_blind ? 1 : 0) - part.blind);
+        outline.set_blind(part, part.blind + memory * ((is_blind ? 1 : 0) - part.blind));
     }
 }
 

@@ -63,12 +63,15 @@ void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
         rounds_.push_back({pose.t_px, track.contour().radius_px() * largest_scale(pose.a),
                            track.can_hide(), track.can_be_hidden()});
     }
+    fronts_.clear();
+    for (std::size_t k = 0; k < tracks.size(); ++k) {
+        if (rounds_[k].can_hide) fronts_.push_back(k);
+    }
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const std::size_t before = overlaps_.size();
-        for (std::size_t k = 0; k < tracks.size(); ++k) {
-            if (i != k && rounds_[k].can_hide && rounds_[i].can_be_hidden &&
-                may_overlap(rounds_[i], rounds_[k])) {
-                overlaps_.push_back({i, k});
+        if (rounds_[i].can_be_hidden) {
+            for (const std::size_t k : fronts_) {
+                if (i != k && may_overlap(rounds_[i], rounds_[k])) overlaps_.push_back({i, k});
             }
         }
         tracks[i].tally(t_us, overlaps_.size() > before);

@@ -67,7 +67,8 @@ class Occlusion {
     std::int64_t next_us_ = 0;
     std::int64_t last_us_ = -1;
     std::map<Pair, Evidence> evidence_;
-    std::vector<Round> rounds_;  // by index
+    std::vector<Round> rounds_;        // by index
+    std::vector<std::size_t> fronts_;  // those that can hide others
     std::vector<Overlap> overlaps_;
     std::vector<std::vector<std::size_t>> hidden_by_;  // by index: those in front of it
 };

@@ -45,14 +45,34 @@ class Outline {
 
     void count(std::int32_t piece, double weight) {
         parts_[part_of_[static_cast<std::size_t>(piece)]].events += weight;
+        is_empty_ = false;
     }
     /// Nothing has come yet; what is hidden stays so.
     void clear() {
+        if (is_empty_) return;
         for (Part& part : parts_) part.events = 0;
+        is_empty_ = true;
     }
+    /// Nothing has come since the last clear().
+    [[nodiscard]] bool is_empty() const { return is_empty_; }
     /// Nothing is hidden.
     void show_all() {
         for (Part& part : parts_) part.is_hidden = false;
+    }
+
+    /// A part comes over blind pixels so often.
+    void set_blind(Part& part, double blind) {
+        part.blind = blind;
+        has_blind_ |= blind > 0;
+    }
+    /// Each of them that much less often.
+    void fade_blind(double factor) {
+        if (!has_blind_) return;
+        has_blind_ = false;
+        for (Part& part : parts_) {
+            part.blind = part.blind * factor > least_blind ? part.blind * factor : 0;
+            has_blind_ |= part.blind > 0;
+        }
     }
 
     [[nodiscard]] std::vector<Part>& parts() { return parts_; }
@@ -70,7 +90,11 @@ class Outline {
         return parts_[part_of_[static_cast<std::size_t>(piece)]];
     }
 
+    static constexpr double least_blind = 0.01;
+
     std::vector<Part> parts_;
+    bool is_empty_ = true;
+    bool has_blind_ = false;
     std::vector<std::uint16_t> part_of_;  // by piece
 };
 

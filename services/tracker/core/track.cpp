@@ -22,6 +22,11 @@ constexpr double trial_gate_px = 6;
 
 constexpr std::int64_t look_for_blind_every_us = 2'000;
 
+// Where a check found too few events, the next one waits until so many came near the object, or for
+// so long: many objects that nothing moves shall not keep the searches busy.
+constexpr int worth_a_check = 16;
+constexpr std::int64_t unmoved_us = 500'000;
+
 // What is silent may have gone so far meanwhile.
 constexpr double unseen_way_px = 5;
 constexpr double checked_share = 0.7;
@@ -97,6 +102,8 @@ void Track::begin() {
     is_searching_ = start_.search;
     is_fresh_ = true;
     is_acquiring_ = is_covered_ = is_adrift_ = has_moved_ = false;
+    near_since_check_ = 0;
+    unmoved_until_us_ = 0;
     silence_.restart();
     emerges_ = false;
     emerged_us_ = emerged_at_us_ = -1;
@@ -108,6 +115,7 @@ void Track::begin() {
     find_what_to_watch();
     outline_.clear();
     outline_.show_all();
+    outline_.fade_blind(0);
     tally_.restart();
     hidden_way_.restart();
     begin_doubt(0, start_confirmations, 0);
@@ -125,6 +133,7 @@ void Track::begin_stream() {
     vanishing_.restart();
     silence_.restart();
     has_moved_ = false;
+    unmoved_until_us_ = 0;
     emerges_ = false;
     emerged_us_ = emerged_at_us_ = -1;
     look_for_blind_us_ = 0;
@@ -204,6 +213,7 @@ std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) c
     if (!is_searching_ && !is_acquiring_) {
         const bool is_told = !is_covered_ && emerged_us_ < 0 && !grip_.health().is_quiet() &&
                              !estimator_->sees_noise_alone();
+        if (near_since_check_ < worth_a_check && t_us < unmoved_until_us_) return std::nullopt;
         if (!is_told || !doubt_.is_due(t_us)) return std::nullopt;
         return range_of_check(t_us, {t_us, pose(), estimator_->velocity()}, doubt_,
                               good_.before().pose, tracker_.coast_s);
@@ -246,6 +256,12 @@ void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocit
 void Track::begin_doubt(std::int64_t t_us, int confirmations, std::int64_t since_us,
                         const std::optional<Coast>& before) {
     if (tracker_.checks_pose >= 0.5) doubt_.begin(t_us, confirmations, since_us, before);
+}
+
+void Track::wait_to_check(std::int64_t t_us) {
+    doubt_.wait(t_us);
+    if (near_since_check_ < worth_a_check) unmoved_until_us_ = t_us + unmoved_us;
+    near_since_check_ = 0;
 }
 
 void Track::listen(std::int64_t t_us) {
@@ -325,6 +341,7 @@ void Track::watch_inside(const Event& event, std::int64_t since_same_us) {
 
 bool Track::take(const Event& event, double weight) {
     is_fresh_ = false;
+    ++near_since_check_;
     if (is_acquiring_) {
         acquisition_->take();
         if (acquisition_->is_done()) acquire(event.t_us);
@@ -387,7 +404,8 @@ void Track::tally(std::int64_t t_us, bool at_once) {
         return;
     }
     if (is_searching_ || is_acquiring_ || !grip_.health().is_fair()) return;
-    tally_.learn(outline_, going());
+    // What neither moves nor makes events tells nothing.
+    if (!outline_.is_empty() || speed_px_s() > 0) tally_.learn(outline_, going());
     if (visible_share_ >= least_seen_share && hidden_way_.is_due(t_us)) {
         hidden_way_.learn(t_us, pose());
     }

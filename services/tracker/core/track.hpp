@@ -86,7 +86,7 @@ class Track {
         return doubt_.take(t_us, finding);
     }
     /// There were too few events to tell.
-    void wait_to_check(std::int64_t t_us) { doubt_.wait(t_us); }
+    void wait_to_check(std::int64_t t_us);
     /// The object is rather here than where it was thought to be.
     void move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocity);
     [[nodiscard]] const Doubt& doubt() const { return doubt_; }
@@ -179,8 +179,10 @@ class Track {
     std::int64_t adrift_since_us_ = -1;
     bool is_searching_ = false;
     bool is_acquiring_ = false;
-    bool is_fresh_ = true;       // since the restart no event was taken
-    bool has_moved_ = false;     // by an event since the last weigh()
+    bool is_fresh_ = true;      // since the restart no event was taken
+    bool has_moved_ = false;    // by an event since the last weigh()
+    int near_since_check_ = 0;  // events, since one found too few of them
+    std::int64_t unmoved_until_us_ = 0;
     bool does_not_fit_ = false;  // the grip was lost to events of something else
     std::int64_t grip_lost_us_ = 0;
     std::int64_t acquisition_began_us_ = 0;
