@@ -347,7 +347,7 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
 }
 
 template <TransformKind kind>
-void KalmanEstimator<kind>::tell_leads() {
+[[gnu::noinline]] void KalmanEstimator<kind>::tell_leads() {
     constexpr bool is_size_known = kind == TransformKind::isometry;
     lead_prior_.look(t_us_, filter_.lead_px(), speed_px_s_, {clutter_.own_share(), noise_.gain()},
                      is_size_known);

@@ -76,66 +76,19 @@ class LeadPrior {
     };
     /// The leads are thought to be these, and the object so fast.
     void look(std::int64_t t_us, const Eigen::Vector4d& lead_px, double speed_px_s,
-              const Clarity& clarity, bool is_size_known) {
-        blind_px_ += (is_told_ ? 0.1 : 1) * (blind_us_ * 1e-6 * speed_px_s - blind_px_);
-        clarity_ = clarity;
-        is_size_known_ = is_size_known;
-        if (t_us < due_us_) return;
-        told_ = LeadPhysics::tell(
-            {subsequent_share_[0], subsequent_share_[1], lead_px, blind_px_, is_size_known});
-        is_told_ = true;
-        due_us_ = t_us + wait_us_;
-        wait_us_ = std::min(2 * wait_us_, longest_wait_us);
-    }
+              const Clarity& clarity, bool is_size_known);
 
     /// What is held of what they have in common: weights() · leads = held_px().
-    [[nodiscard]] Eigen::Vector4d weights() const {
-        const auto [off, on] = subsequent_share_;
-        const Eigen::Vector4d all(0.5 * (1 - off), 0.5 * off, 0.5 * (1 - on), 0.5 * on);
-        const Eigen::Vector4d first_only(1.3, 0, -0.3, 0);
-        const Eigen::Vector4d usual = several() * all + (1 - several()) * first_only;
-        return by_physics(all, usual);
-    }
-    [[nodiscard]] double held_px() const {
-        return by_physics(told_.common_px, several() * -0.14 + (1 - several()) * 0.10);
-    }
+    [[nodiscard]] Eigen::Vector4d weights() const;
+    [[nodiscard]] double held_px() const;
     /// How far ON is ahead of OFF, over all events: where the object may change its size, the
     /// events hardly tell this from it.
-    [[nodiscard]] Eigen::Vector4d apart_weights() const {
-        const auto [off, on] = subsequent_share_;
-        return {off - 1, -off, 1 - on, on};
-    }
-    [[nodiscard]] double apart_px() const {
-        const double usual_px = several() * 0.43 + (1 - several()) * 0.50;
-        return is_size_known_ ? by_physics(told_.apart_px, usual_px) : usual_px;
-    }
+    [[nodiscard]] Eigen::Vector4d apart_weights() const;
+    [[nodiscard]] double apart_px() const;
 
  private:
-    static double step(double x) {
-        const double u = std::clamp(x, 0.0, 1.0);
-        return u * u * (3 - 2 * u);
-    }
-    /// 1 where the physics can tell: subsequent events come, or would come if the threshold were
-    /// low, because pixels see again soon enough. And the events are the object's own (noise looks
-    /// like first ones), and do not scatter by more than pixels and edges alone make them: where
-    /// their stamps jitter by the time in which an edge passes, intervals tell nothing.
-    [[nodiscard]] double tells() const {
-        if (!is_told_) return 0;
-        const double share = (subsequent_share_[0] + subsequent_share_[1]) / 2;
-        const double seen = std::max(step((share - 0.05) / 0.1), 1 - step((blind_px_ - 1.4) / 0.5));
-        return seen * step((clarity_.own_share - 0.7) / 0.2) *
-               step((1.0 - clarity_.noise_gain) / 0.3);
-    }
-    template <typename Value>
-    [[nodiscard]] Value by_physics(const Value& told, const Value& usual) const {
-        const double tells = this->tells();
-        return tells * told + (1 - tells) * usual;
-    }
-    /// 0 where an edge makes one event in a pixel … 1 where it makes two and more.
-    [[nodiscard]] double several() const {
-        const double share = (subsequent_share_[0] + subsequent_share_[1]) / 2;
-        return step((share - 0.1) / 0.3);
-    }
+    [[nodiscard]] double tells() const;
+    [[nodiscard]] double several() const;
 
     /// Of what a mean is over: 1 over the events so far, at most so many.
     struct Mean {

@@ -17,7 +17,8 @@ class Refractory {
     /// Of any event: how long ago its pixel fired before it, whichever polarity.
     void see(std::int64_t since_us) {
         const auto since = static_cast<double>(since_us);
-        period_us_ = std::min(period_us_ * (since < period_us_ ? shorter : longer), longest_us);
+        period_us_ = std::clamp(period_us_ * (since < period_us_ ? shorter : longer), shortest_us,
+                                longest_us);
     }
 
     [[nodiscard]] double period_us() const { return period_us_; }
@@ -27,6 +28,7 @@ class Refractory {
     static constexpr double step = 0.03;
     static constexpr double shorter = 1 - step;
     static constexpr double longer = 1 + step * share / (1 - share);
+    static constexpr double shortest_us = 1;  // of what stamps tell
     static constexpr double usual_us = 1'000;
     static constexpr double longest_us = 10'000;
 

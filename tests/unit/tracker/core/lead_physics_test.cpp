@@ -83,5 +83,11 @@ TEST(Refractory, is_little_longer_than_the_shortest_of_many_intervals) {
     EXPECT_NEAR(refractory.period_us(), 890, 60);
 }
 
+TEST(Refractory, is_a_microsecond_at_least_of_pixels_that_fire_twice_at_once) {
+    Refractory refractory;
+    for (int i = 0; i < 100'000; ++i) refractory.see(0);
+    EXPECT_EQ(refractory.period_us(), 1);
+}
+
 }  // namespace
 }  // namespace pursuit::tracker
