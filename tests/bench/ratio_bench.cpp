@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
@@ -29,6 +30,9 @@ double median(std::vector<double> values) {
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
+
+// What the disc makes at 670 rpm: what is done every few ms weighs less on each event.
+constexpr double fast_hz = 500'000;
 
 /// One of those that take turns.
 struct Contender {
@@ -72,9 +76,10 @@ std::vector<double> compete(benchmark::State& state, std::vector<Contender> cont
     return medians;
 }
 
-void beside_the_scalar_reading(benchmark::State& state, int points) {
+void beside_the_scalar_reading(benchmark::State& state, int points, double rate_hz) {
     Case of;
     of.points = points;
+    of.rate_hz = rate_hz;
     const auto events = events_on_contours(of);
     auto paper = std::make_shared<ScalarPaper>(outline("o", points), pose_at(0, false, 0),
                                                ObjectParameters());
@@ -114,11 +119,14 @@ void many_beside_one(benchmark::State& state, int objects, EstimatorKind estimat
 }  // namespace
 
 void add_ratios() {
-    for (const int points : {90, 500, 2000}) {
-        benchmark::RegisterBenchmark(
-            ("ratio/scalar/points:" + std::to_string(points)).c_str(),
-            [points](benchmark::State& state) { beside_the_scalar_reading(state, points); })
-            ->Unit(benchmark::kMillisecond);
+    for (const double rate_hz : {Case().rate_hz, fast_hz}) {
+        for (const int points : {90, 500, 2000}) {
+            const std::string name = "ratio/scalar/points:" + std::to_string(points) +
+                                     "/rate_khz:" + std::to_string(std::lround(rate_hz * 1e-3));
+            benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+                beside_the_scalar_reading(state, points, rate_hz);
+            })->Unit(benchmark::kMillisecond);
+        }
     }
     for (const EstimatorKind estimator : {EstimatorKind::gradient, EstimatorKind::kalman}) {
         for (const Place place : {Place::on_contours, Place::elsewhere}) {
