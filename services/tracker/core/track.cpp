@@ -265,8 +265,9 @@ void Track::wait_to_check(std::int64_t t_us) {
 }
 
 void Track::listen(std::int64_t t_us) {
-    if (emerged_us_ >= 0) return;
-    if (!silence_.begins(t_us, grip_.health().usual_rate_hz(), speed_px_s())) return;
+    const double usual_hz = grip_.health().usual_rate_hz();
+    if (emerged_us_ >= 0 || !silence_.is_silent(t_us, usual_hz)) return;
+    if (!silence_.begins(t_us, usual_hz, speed_px_s())) return;
     const Coast before{silence_.heard_us(), estimator_->pose(), estimator_->velocity()};
     begin_doubt(t_us, found_confirmations, t_us, before);
 }
