@@ -67,12 +67,13 @@ def print_costs(runs):
 def print_ratios(runs):
     if not any(name.startswith("ratio/") for name in runs):
         return
-    print("\n| points | scalar reading, ns | gradient | kalman | kalman, full affine "
-          "| scalar / gradient | scalar / kalman |\n|---|---|---|---|---|---|---|")
+    print("\n| points | kHz | scalar reading, ns | gradient | kalman | kalman, full affine "
+          "| scalar / gradient | scalar / kalman |\n|---|---|---|---|---|---|---|---|")
     for name in (name for name in runs if name.startswith("ratio/scalar/")):
         counters = ("scalar_ns", "gradient_ns", "kalman_ns", "affine_ns", "scalar/gradient",
                     "scalar/kalman")
-        print(f"| {name.rpartition(':')[2]} | "
+        points, rate = (part.rpartition(":")[2] for part in name.split("/")[2:])
+        print(f"| {points} | {rate} | "
               + " | ".join(median(runs, name, counter) for counter in counters) + " |")
     print("\n| objects | estimator, events | one object, ns | that many, ns | many / one |\n"
           "|---|---|---|---|---|")

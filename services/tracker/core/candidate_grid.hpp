@@ -133,6 +133,14 @@ class CandidateGrid {
                            : nearest_of(cell.first, others, cell.others, see);
     }
 
+    /// Whether a place is beyond the reach of every piece; may deny it close to that.
+    [[nodiscard]] bool is_beyond(double x, double y) const {
+        const double column = (x - left_px_) * cells_per_px_;
+        const double row = (y - top_px_) * cells_per_px_;
+        return !(column >= 0 && row >= 0 && column < columns_ && row < rows_) ||
+               cells_[place_of(static_cast<int>(column), static_cast<int>(row))].others == 0;
+    }
+
     /// The nearest of these alone, one or more.
     template <class Metric>
     [[nodiscard, gnu::always_inline]] Nearest nearest_among(std::span<const std::uint16_t> pieces,

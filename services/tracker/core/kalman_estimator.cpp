@@ -35,6 +35,8 @@ constexpr double onset_px_s = 200;  // σ of its speed then
 constexpr double sighted_sigma_px = 0.6;
 constexpr double sighted_speed_sigma_px_s = 100;
 constexpr double silent_events = 10;  // expected and not come: it stands still
+// Lookups are good for so much more than is asked of them.
+constexpr double lay_out_spare_px = 1;
 // The mean goes on with every event, what is known of it (its covariance, and how it can turn away)
 // after so much of a way or time.
 constexpr double spread_way_px = 0.05;
@@ -103,7 +105,7 @@ void KalmanEstimator<kind>::set_speed(double speed_px_s) {
 template <TransformKind kind>
 void KalmanEstimator<kind>::lay_out() {
     const Eigen::Matrix2d& a = filter_.pose().a;
-    contour_.fit(a, Clutter::far_to_px + 1);
+    contour_.fit(a, Clutter::far_to_px + lay_out_spare_px);
     const double area = a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0);
     if (std::abs(area - sampled_for_area_) < 0.3 * sampled_for_area_) return;
     clutter_.sample(contour_, a);
@@ -274,6 +276,18 @@ double KalmanEstimator<kind>::reach_px(std::int64_t t_us) const {
     return size_.near_px + 2e-6 * speed_px_s_ * static_cast<double>(t_us - t_us_);
 }
 
+// Of what comes within the object's extent most is nowhere near its contour: that shows where it
+// was last, as long as it cannot have gone far since. (Among noise all of it is looked at.)
+template <TransformKind kind>
+[[gnu::always_inline]] inline bool KalmanEstimator<kind>::is_far(const Eigen::Vector2d& q,
+                                                                 double within_px) const {
+    if (within_px - size_.near_px > lay_out_spare_px || watch_.is_on()) return false;
+    const Eigen::Matrix2d& a = filter_.pose().a;
+    const double per_area = keeps_its_size ? 1 : 1 / (a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
+    return contour_.pieces().is_beyond((a(1, 1) * q.x() - a(0, 1) * q.y()) * per_area,
+                                       (a(0, 0) * q.y() - a(1, 0) * q.x()) * per_area);
+}
+
 template <TransformKind kind>
 double KalmanEstimator<kind>::lead_px(std::int32_t piece, int lead) const {
     const auto& leads_px = filter_.lead_px();
@@ -288,7 +302,7 @@ template <TransformKind kind>
 const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelPast& past) {
     Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - filter_.pose().t_px;
     const double within_px = reach_px(event.t_us);
-    if (q.squaredNorm() > within_px * within_px) return nullptr;
+    if (q.squaredNorm() > within_px * within_px || is_far(q, within_px)) return nullptr;
     predict_to(event.t_us);
     const Pose& pose = filter_.pose();
     if constexpr (!keeps_its_size) lay_out();

@@ -70,6 +70,9 @@ class KalmanEstimator : public Estimator {
     void set_speed(double speed_px_s);
     void lay_out();
     void predict_to(std::int64_t t_us);
+    /// Of an event q about T, within the object's extent: whether it is beside all of the contour
+    /// for sure.
+    [[nodiscard]] bool is_far(const Eigen::Vector2d& q, double within_px) const;
     /// A way on which so many events should have come that, had it gone it, …
     void find_silent_way();
     void learn(double r_px, double share);
