@@ -51,6 +51,8 @@ def print_costs(runs):
         estimator, _, case = rest.partition("/")
         if place in PLACES and case not in cases:
             cases.append(case)
+    if not cases:
+        return
     print("| ns an event | " + " | ".join(f"{e}, {p}" for e, p in columns) + " |")
     print("|---" * (len(columns) + 1) + "|")
     for case in cases:
