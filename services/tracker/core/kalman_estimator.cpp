@@ -79,8 +79,13 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     residual_px_ = 0.5;
     t_us_ = -1;
     way_begin_ = pose;
-    sampled_for_area_ = keeps_its_size ? sampled_for_area_ : 0;
-    lay_out();
+    if constexpr (keeps_its_size) {
+        lay_out();
+    } else {
+        // Of the rest the first event says how large it is.
+        contour_.fit(pose.a, Clutter::far_to_px + lay_out_spare_px);
+        sampled_for_area_ = 0;
+    }
     begin_anew();
 }
 

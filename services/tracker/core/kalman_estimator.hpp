@@ -73,7 +73,7 @@ class KalmanEstimator : public Estimator {
     /// Of an event q about T, within the object's extent: whether it is beside all of the contour
     /// for sure.
     [[nodiscard]] bool is_far(const Eigen::Vector2d& q, double within_px) const;
-    /// A way on which so many events should have come that, had it gone it, …
+    /// How far it may go unheard: on a longer way so many events should have come that it stands.
     void find_silent_way();
     void learn(double r_px, double share);
     /// What the filter knows, dt_s after it was told last.
@@ -140,7 +140,7 @@ class KalmanEstimator : public Estimator {
     double speed_px_s_ = 0;       // u, when the filter was spread last
     double unspread_s_ = 0;       // since then
     double spread_after_s_ = 0;   // to be again
-    double silent_way2_px2_ = 0;  // … it would have been heard of; squared
+    double silent_way2_px2_ = 0;  // of it, squared
     double same_edge_us_ = 0;     // a pixel's events of one edge follow each other within
     bool tells_contrast_ = true;
     bool learns_offsets_ = true;

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "services/tracker/core/climb.hpp"
 #include "services/tracker/core/contour_samples.hpp"
 
 namespace pursuit::tracker {
@@ -31,7 +32,6 @@ constexpr double least_rest_z = 2;
 constexpr double least_rest_share = 0.25;
 
 // The steps uphill; of the velocity as far as they take it in the time looked at.
-constexpr std::array<double, 3> steps_px{1, 0.5, 0.25};
 constexpr int most_rounds = 3;
 constexpr double velocity_steps_per_s = 80;
 
@@ -231,36 +231,10 @@ bool Lookout::is_all_around(const Coast& coast, double z) const {
     return rest_z > std::max(least_rest_z, least_rest_share * z);
 }
 
-// In ever smaller steps.
-Coast Lookout::uphill(Coast coast, double& z) const {
+Coast Lookout::uphill(const Coast& coast, double& z) const {
     z = z_of(coast);
-    for (const double step_px : steps_px) {
-        const double step_px_s = step_px * velocity_steps_per_s;
-        bool is_better = true;
-        for (int round = 0; round < most_rounds && is_better; ++round) {
-            is_better = false;
-            for (int freedom = 0; freedom < 6; ++freedom) {
-                for (const double sign : {1.0, -1.0}) {
-                    Coast moved = coast;
-                    const double by = sign * step_px;
-                    const double by_per_s = sign * step_px_s;
-                    if (freedom == 0) moved.pose.t_px.x() += by;
-                    if (freedom == 1) moved.pose.t_px.y() += by;
-                    if (freedom == 2) moved.pose.a = rotation(by * turn_rad_) * coast.pose.a;
-                    if (freedom == 3) moved.velocity.vx_px_s += by_per_s;
-                    if (freedom == 4) moved.velocity.vy_px_s += by_per_s;
-                    if (freedom == 5) moved.velocity.omega_rad_s += by_per_s * turn_rad_;
-                    const double moved_z = z_of(moved);
-                    if (moved_z <= z) continue;
-                    z = moved_z;
-                    coast = moved;
-                    is_better = true;
-                    break;
-                }
-            }
-        }
-    }
-    return coast;
+    return climb(coast, z, {most_rounds, velocity_steps_per_s, turn_rad_},
+                 [this](const Coast& moved) { return z_of(moved); });
 }
 
 Coast Lookout::best_of_around(const Coast& own, const Velocity& going) const {

@@ -72,7 +72,7 @@ class Lookout {
     [[nodiscard]] std::array<double, parts> scores_of(const Coast& coast) const;
     [[nodiscard]] double z_of(const Coast& coast) const;
     [[nodiscard]] bool is_all_around(const Coast& coast, double z) const;
-    [[nodiscard]] Coast uphill(Coast coast, double& z) const;
+    [[nodiscard]] Coast uphill(const Coast& coast, double& z) const;
     [[nodiscard]] Coast best_of_around(const Coast& own, const Velocity& going) const;
 
     /// Where events came from, image px.

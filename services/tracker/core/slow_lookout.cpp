@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "services/tracker/core/climb.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
@@ -32,7 +34,6 @@ constexpr int directions = 8;
 constexpr std::size_t climbs = 3;
 
 // The steps uphill; of the velocity as far as they take it in a third of the time looked at.
-constexpr std::array<double, 3> steps_px{1, 0.5, 0.25};
 constexpr int most_rounds = 4;
 constexpr double velocity_steps_per_s = 20;
 
@@ -319,35 +320,9 @@ void SlowLookout::find_starts(const Coast& own) {
                      [](const auto& l, const auto& r) { return l.first > r.first; });
 }
 
-// In ever smaller steps.
-Coast SlowLookout::uphill(Coast coast, double& z) const {
-    for (const double step_px : steps_px) {
-        const double step_px_s = step_px * velocity_steps_per_s;
-        bool is_better = true;
-        for (int round = 0; round < most_rounds && is_better; ++round) {
-            is_better = false;
-            for (int freedom = 0; freedom < 6; ++freedom) {
-                for (const double sign : {1.0, -1.0}) {
-                    Coast moved = coast;
-                    const double by = sign * step_px;
-                    const double by_per_s = sign * step_px_s;
-                    if (freedom == 0) moved.pose.t_px.x() += by;
-                    if (freedom == 1) moved.pose.t_px.y() += by;
-                    if (freedom == 2) moved.pose.a = rotation(by * turn_rad_) * coast.pose.a;
-                    if (freedom == 3) moved.velocity.vx_px_s += by_per_s;
-                    if (freedom == 4) moved.velocity.vy_px_s += by_per_s;
-                    if (freedom == 5) moved.velocity.omega_rad_s += by_per_s * turn_rad_;
-                    const double moved_z = told_by(moved).z;
-                    if (moved_z <= z) continue;
-                    z = moved_z;
-                    coast = moved;
-                    is_better = true;
-                    break;
-                }
-            }
-        }
-    }
-    return coast;
+Coast SlowLookout::uphill(const Coast& coast, double& z) const {
+    return climb(coast, z, {most_rounds, velocity_steps_per_s, turn_rad_},
+                 [this](const Coast& moved) { return told_by(moved).z; });
 }
 
 auto SlowLookout::look(const Coast& own, double gyration_px) -> Sight {

@@ -101,7 +101,7 @@ class SlowLookout {
     [[nodiscard]] double z_of(const Sums& of, const Sums& less) const;
     [[nodiscard]] Told told_by(const Coast& coast) const;
     void find_starts(const Coast& own);
-    [[nodiscard]] Coast uphill(Coast coast, double& z) const;
+    [[nodiscard]] Coast uphill(const Coast& coast, double& z) const;
 
     std::vector<ContourSample> samples_;  // across: outwards, where there is an inside
     bool has_inside_ = false;
