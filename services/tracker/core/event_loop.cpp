@@ -174,13 +174,14 @@ void EventLoop::wake(std::int64_t t_us) {
     // The objects it may belong to, by the nearest place of each model (3.1). Mostly there is none,
     // or one that nobody contends with.
     const ReachMap::Concerned concerned = reach_map_.at(event.x, event.y);
-    if (concerned.is_none()) {
+    const auto some = concerned.some();
+    if (some.count == 0) {
         ++counters_.events_unused;
         return;
     }
-    if (concerned.is_one() && !arbiter_.listens()) {
-        const bool is_used = approach(event, concerned.first(), past) != nullptr &&
-                             step(event, concerned.first(), 1, sink);
+    if (some.count == 1 && !arbiter_.listens()) {
+        const bool is_used =
+            approach(event, some.sole, past) != nullptr && step(event, some.sole, 1, sink);
         ++(is_used ? counters_.events_used : counters_.events_unused);
         return;
     }
@@ -211,17 +212,20 @@ void EventLoop::wake(std::int64_t t_us) {
     ++(is_used ? counters_.events_used : counters_.events_unused);
 }
 
-// Every track learns what time it is, and the map where it is.
+// Every track that it matters to learns what time it is, and the map where it is.
 void EventLoop::go_round(std::int64_t t_us) {
     next_round_us_ = t_us + round_us;
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
-        tracks_[i].reach_time(t_us, recent_);
-        reach_map_.place(i, tracks_[i].reach(next_round_us_));
+        Track& track = tracks_[i];
+        if (t_us < track.due_us()) continue;
+        track.reach_time(t_us, recent_);
+        reach_map_.place(i, track.reach(std::max(next_round_us_, track.due_us())));
     }
 }
 
 void EventLoop::restart_round() {
     reach_map_.restart(geometry_, tracks_.size());
+    for (Track& track : tracks_) track.stir();
     next_round_us_ = 0;
     wake_us_ = 0;
 }

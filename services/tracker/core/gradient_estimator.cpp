@@ -46,7 +46,7 @@ void GradientEstimator<kind>::set_parameters(const ObjectParameters& parameters)
 
 template <TransformKind kind>
 void GradientEstimator<kind>::measure_extent() {
-    extent_px_ = contour_.radius_px() * pose_.a.norm();
+    extent_px_ = contour_.radius_px() * largest_scale(pose_.a);
     reach2_px2_ = reach_px(0) * reach_px(0);
 }
 

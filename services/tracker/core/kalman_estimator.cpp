@@ -154,7 +154,8 @@ void KalmanEstimator<kind>::measure_size() {
     size_.gyration_px = gyration_px * scale;
     size_.per_gyration2 = 1 / (gyration_px * gyration_px * area);
     size_.extent_px = contour_.radius_px() * a.norm();
-    size_.near_px = size_.extent_px + Clutter::far_to_px + 1;
+    size_.near_px = contour_.radius_px() * largest_scale(a) + Clutter::far_to_px + 1;
+    size_.watched_px = size_.extent_px + Clutter::far_to_px + 1;
 }
 
 template <TransformKind kind>
@@ -278,7 +279,8 @@ void KalmanEstimator<kind>::look_out(std::int64_t t_us) {
 // The pose of the last near event and how far the object can have gone since tell.
 template <TransformKind kind>
 double KalmanEstimator<kind>::reach_px(std::int64_t t_us) const {
-    return size_.near_px + 2e-6 * speed_px_s_ * static_cast<double>(t_us - t_us_);
+    const double near_px = watch_.is_on() ? size_.watched_px : size_.near_px;
+    return near_px + 2e-6 * speed_px_s_ * static_cast<double>(t_us - t_us_);
 }
 
 // Of what comes within the object's extent most is nowhere near its contour: that shows where it

@@ -113,8 +113,9 @@ class KalmanEstimator : public Estimator {
         double length_px = 0;  ///< Of it, 0.6: of one that runs every way, what faces the motion.
         double gyration_px = 0;
         double per_gyration2 = 0;  ///< 1/gyration², 1/px²
-        double extent_px = 0;      ///< No point is farther from T, …
-        double near_px = 0;        ///< … and nothing that is near it.
+        double extent_px = 0;      ///< More than its farthest point is from T.
+        double near_px = 0;        ///< Nothing that is near it is farther …
+        double watched_px = 0;     ///< … nor what is watched among noise.
     };
 
     Contour contour_;

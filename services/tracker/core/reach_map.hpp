@@ -43,11 +43,22 @@ class ReachMap {
     /// The objects that a place may concern, as they are entered now.
     class Concerned {
      public:
-        [[nodiscard]] bool is_none() const { return words_ == 1 && *bits_ == 0; }
-        /// False also where there are so many objects that it is not told at a glance.
-        [[nodiscard]] bool is_one() const { return words_ == 1 && std::has_single_bit(*bits_); }
-        [[nodiscard]] std::size_t first() const {
-            return static_cast<std::size_t>(std::countr_zero(*bits_));
+        /// How many there are, and which it is where it is one.
+        struct Some {
+            std::size_t count = 0;
+            std::size_t sole = 0;
+        };
+        [[nodiscard]] Some some() const {
+            Some some;
+            for (std::size_t word = 0; word < words_; ++word) {
+                const std::uint64_t bits = bits_[word];
+                // (The last bit, where there is none: gcc makes a branch of that, and by the place
+                // of an event nobody could foresee it.)
+                const int last = std::countr_zero(bits | std::uint64_t{1} << 63);
+                some.count += static_cast<std::size_t>(std::popcount(bits));
+                if (bits != 0) some.sole = word * 64 + static_cast<std::size_t>(last);
+            }
+            return some;
         }
         /// Calls ask(index) for each, in order.
         template <typename Ask>

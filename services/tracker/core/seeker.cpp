@@ -35,9 +35,7 @@ constexpr double again_log_scale = 0.1;
 
 void Seeker::restart(Geometry geometry) {
     geometry_ = geometry;
-    ring_.assign(ring_events, {});
-    next_ = 0;
-    fired_us_.assign(std::size_t{geometry.width} * geometry.height, never_us);
+    last_.restart();
     object_id_ = last_object_id_ = 0;
     attempt_ = 0;
     due_us_ = 0;
@@ -111,7 +109,7 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
 std::size_t Seeker::wanted_events(const Track& track, double times) {
     const double scale = track.radius_px() / std::max(track.contour().radius_px(), 1e-9);
     const double once = events_per_px * track.contour().length_px() * scale;
-    return std::clamp(static_cast<std::size_t>(once * times), std::size_t{100}, ring_events);
+    return std::clamp(static_cast<std::size_t>(once * times), std::size_t{100}, LastEvents::most);
 }
 
 void Seeker::end(std::int64_t t_us, Track& track) {
@@ -174,48 +172,35 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
                std::abs(event.y - range.around.t_px.y()) < reach_px;
     };
     // What lies a pixel farther out, and more, supports nothing that is in reach.
-    const auto low = [&](double px) { return static_cast<int>(std::floor(px - reach_px)) - 2; };
-    const int left = low(range.around.t_px.x());
-    const int top = low(range.around.t_px.y());
-    const auto side = static_cast<unsigned>(2 * reach_px) + 6;
-    const auto may_support = [&](const Event& event) {
-        return static_cast<unsigned>(event.x - left) < side &&
-               static_cast<unsigned>(event.y - top) < side;
+    const auto within = [](double px, std::uint16_t end) {
+        return static_cast<std::uint16_t>(std::clamp<double>(std::floor(px), 0, end));
     };
-    const int width = geometry_.width;
-    const int height = geometry_.height;
-    const std::int64_t since_us = std::max(t_us - look_.window_us, range.since_us);
-    // They are in order of time.
-    std::size_t first = next_ - std::min(next_, ring_.size());
-    for (std::size_t end = next_; first < end;) {
-        const std::size_t middle = first + (end - first) / 2;
-        if (ring_[middle % ring_events].t_us < since_us) {
-            first = middle + 1;
-        } else {
-            end = middle;
-        }
-    }
-    const auto at = [&](int x, int y) -> std::int64_t& {
-        return fired_us_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                         static_cast<std::size_t>(x)];
-    };
+    const double side_px = reach_px + 2;
+    const LastEvents::Box box{within(range.around.t_px.x() - side_px, geometry_.width),
+                              within(range.around.t_px.y() - side_px, geometry_.height),
+                              within(range.around.t_px.x() + side_px + 1, geometry_.width),
+                              within(range.around.t_px.y() + side_px + 1, geometry_.height)};
+    // Of the box and a rim about it, so that every pixel has its neighbours.
+    const auto columns = static_cast<std::size_t>(box.right - box.left) + 2;
+    const std::size_t pixels = columns * (static_cast<std::size_t>(box.bottom - box.top) + 2);
+    if (fired_us_.size() < pixels) fired_us_.resize(pixels, never_us);
     looked_at_.clear();
     // Forwards, as they came: supported by a neighbour that fired shortly before.
-    for (std::size_t i = first; i < next_; ++i) {
-        const Event& event = ring_[i % ring_events];
-        if (!may_support(event)) continue;
-        bool is_supported = false;
-        for (int y = std::max(event.y - 1, 0); y <= std::min(event.y + 1, height - 1); ++y) {
-            for (int x = std::max(event.x - 1, 0); x <= std::min(event.x + 1, width - 1); ++x) {
-                const bool is_itself = x == event.x && y == event.y;
-                is_supported |= !is_itself && event.t_us - at(x, y) < look_.neighbour_us;
-            }
+    const std::int64_t since_us = std::max(t_us - look_.window_us, range.since_us);
+    last_.for_each_in(box, since_us, [&](const Event& event) {
+        const std::size_t at = static_cast<std::size_t>(event.y - box.top + 1) * columns +
+                               static_cast<std::size_t>(event.x - box.left + 1);
+        const auto fired_since = [&](std::size_t pixel) {
+            return event.t_us - fired_us_[pixel] < look_.neighbour_us;
+        };
+        bool is_supported = fired_since(at - 1) || fired_since(at + 1);
+        for (const std::size_t row : {at - columns, at + columns}) {
+            is_supported |= fired_since(row - 1) || fired_since(row) || fired_since(row + 1);
         }
-        at(event.x, event.y) = event.t_us;
-        looked_at_.push_back(static_cast<std::size_t>(&at(event.x, event.y) - fired_us_.data()));
-        if (!is_supported || !is_in_reach(event)) continue;
-        gathered_.push_back(event);
-    }
+        fired_us_[at] = event.t_us;
+        looked_at_.push_back(at);
+        if (is_supported && is_in_reach(event)) gathered_.push_back(event);
+    });
     for (const std::size_t pixel : looked_at_) fired_us_[pixel] = never_us;
     if (gathered_.size() > count) {
         gathered_.erase(gathered_.begin(), gathered_.end() - static_cast<std::ptrdiff_t>(count));

@@ -9,6 +9,7 @@
 
 #include "services/common/event.hpp"
 #include "services/tracker/core/fired_map.hpp"
+#include "services/tracker/core/last_events.hpp"
 #include "services/tracker/core/shape_search.hpp"
 #include "services/tracker/core/track.hpp"
 
@@ -24,10 +25,7 @@ class Seeker {
     void restart(Geometry geometry);
 
     /// Every event.
-    void see(const Event& event) {
-        ring_[next_ % ring_events] = event;
-        ++next_;
-    }
+    void see(const Event& event) { last_.see(event); }
 
     /// Before the first event at or after next_us() is given to a track.
     void work(std::int64_t t_us, std::span<Track> tracks) {
@@ -36,8 +34,6 @@ class Seeker {
     [[nodiscard]] std::int64_t next_us() const { return due_us_; }
 
  private:
-    static constexpr std::size_t ring_events = 16'384;
-
     /// What is looked at: how many times the events that a shape makes on a way of 2 px, how far
     /// back, and how long before an event a neighbour of it fired.
     struct Look {
@@ -66,10 +62,9 @@ class Seeker {
     [[nodiscard]] static std::size_t wanted_events(const Track& track, double times);
 
     Geometry geometry_;
-    std::vector<Event> ring_ = std::vector<Event>(ring_events);
-    std::size_t next_ = 0;
+    LastEvents last_;
     std::vector<Event> gathered_;
-    std::vector<std::int64_t> fired_us_;  // by pixel, while gathering; never in between
+    std::vector<std::int64_t> fired_us_;  // by pixel looked at, while gathering; never in between
     std::vector<std::size_t> looked_at_;  // the pixels
     FiredMap map_;
     ShapeSearch search_;

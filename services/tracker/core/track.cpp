@@ -22,6 +22,9 @@ constexpr double trial_gate_px = 6;
 
 constexpr std::int64_t look_for_blind_every_us = 2'000;
 
+// Time goes on in larger steps where nothing happens to the object.
+constexpr std::int64_t unstirred_us = 2'000;
+
 // Where a check found too few events, the next one waits until so many came near the object, or for
 // so long: many objects that nothing moves shall not keep the searches busy.
 constexpr int worth_a_check = 16;
@@ -99,6 +102,7 @@ void Track::restart(const RegisteredObject& object) {
 }
 
 void Track::begin() {
+    stir();
     is_searching_ = start_.search;
     is_fresh_ = true;
     is_acquiring_ = is_covered_ = is_adrift_ = has_moved_ = false;
@@ -155,6 +159,7 @@ void Track::begin_stream() {
 }
 
 void Track::lose_grip(std::int64_t t_us) {
+    stir();
     is_acquiring_ = true;
     does_not_fit_ = false;
     grip_.forgive();
@@ -231,6 +236,7 @@ std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) c
 }
 
 void Track::offer(std::int64_t t_us, const Pose& pose) {
+    stir();
     is_acquiring_ = true;
     trial_until_us_ = t_us + trial_us;
     acquisition_began_us_ = t_us;
@@ -238,6 +244,7 @@ void Track::offer(std::int64_t t_us, const Pose& pose) {
 }
 
 void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocity) {
+    stir();
     const Pose moved = constrained(pose, transform_);
     grip_.restart(Health::good);
     acquired_us_ = t_us;
@@ -278,6 +285,7 @@ Pose Track::pose() const {
 }
 
 void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
+    due_us_ = due_us_ == 0 ? t_us : t_us + unstirred_us;
     estimator_->set_blind_us(pixels.blind_us());
     if (adrift_since_us_ < 0) adrift_since_us_ = t_us;
     if (is_covered_) return;
@@ -342,6 +350,7 @@ void Track::watch_inside(const Event& event, std::int64_t since_same_us) {
 
 bool Track::take(const Event& event, double weight) {
     is_fresh_ = false;
+    stir();
     ++near_since_check_;
     if (is_acquiring_) {
         acquisition_->take();
@@ -452,6 +461,7 @@ void Track::show_all(std::int64_t t_us) {
 }
 
 void Track::uncover(std::int64_t t_us) {
+    stir();
     is_covered_ = false;
     grip_.restart(Health::good);
     const Coast& gone = hidden_way_.last();

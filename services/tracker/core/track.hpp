@@ -59,8 +59,12 @@ class Track {
     [[nodiscard]] Pose pose() const;
     [[nodiscard]] std::uint64_t events_used() const { return events_used_; }
 
-    /// Time goes on: to be called every half ms in which any events come, the object's or not.
+    /// Time goes on: to be called every half ms in which any events come, the object's or not,
+    /// from due_us() on.
     void reach_time(std::int64_t t_us, const RecentPixels& pixels);
+    /// Later than the next half ms where nothing has stirred the object.
+    [[nodiscard]] std::int64_t due_us() const { return due_us_; }
+    void stir() { due_us_ = 0; }
     /// Where events until t_us can concern the object.
     [[nodiscard]] Reach reach(std::int64_t t_us) const;
 
@@ -188,6 +192,7 @@ class Track {
     std::int64_t acquisition_began_us_ = 0;
     std::int64_t trial_until_us_ = -1;  // of an offered pose
     std::int64_t look_for_blind_us_ = 0;
+    std::int64_t due_us_ = 0;
     std::int64_t acquired_us_ = never_us;
     std::int64_t doubted_us_ = never_us;  // events spoke against the pose
     std::int64_t emerged_us_ = -1;     // came out from under another; not yet confirmed by events

@@ -12,6 +12,7 @@ namespace {
 constexpr double margins_px[] = {3, 2};
 constexpr double least_inside_px2 = 60;
 constexpr double about_from_px = 2.5;
+constexpr double about_to_px = 4;  // beyond the farthest point: what is farther, nobody asks about
 constexpr double least_about_px2 = 60;
 // Where the image shows it smaller, the margin is none.
 constexpr double least_scale2 = 0.5;
@@ -39,9 +40,10 @@ constexpr double least_own = 8;
 
 Vanishing::Vanishing(const Silhouette& silhouette, double radius_px) {
     if (silhouette.covers_nothing()) return;
-    const double side_px = 2 * (radius_px + 4);
-    columns_ = static_cast<std::size_t>(std::min(std::ceil(side_px), most_map_columns));
-    cells_per_px_ = static_cast<double>(columns_) / side_px;
+    const double about_end_px = radius_px + about_to_px;
+    const double inner_columns = std::min(std::ceil(2 * about_end_px), most_map_columns);
+    columns_ = static_cast<std::size_t>(inner_columns) + 2;  // with a rim that is nowhere
+    cells_per_px_ = inner_columns / (2 * about_end_px);
     middle_ = static_cast<double>(columns_) / 2;
     map_.assign(columns_ * columns_, nowhere);
     const double place_px2 = 1 / (cells_per_px_ * cells_per_px_);
@@ -50,9 +52,10 @@ Vanishing::Vanishing(const Silhouette& silhouette, double radius_px) {
     for (std::size_t i = 0; i < map_.size(); ++i) {
         const auto column = static_cast<double>(i % columns_);
         const auto row = static_cast<double>(i / columns_);
-        depth_px[i] = static_cast<float>(silhouette.depth_px(
-            {(column + 0.5 - middle_) / cells_per_px_, (row + 0.5 - middle_) / cells_per_px_}));
-        if (depth_px[i] < -about_from_px) {
+        const Eigen::Vector2d place_px((column + 0.5 - middle_) / cells_per_px_,
+                                       (row + 0.5 - middle_) / cells_per_px_);
+        depth_px[i] = static_cast<float>(silhouette.depth_px(place_px));
+        if (depth_px[i] < -about_from_px && place_px.norm() < about_end_px) {
             map_[i] = about;
             about_px2_ += place_px2;
         }
@@ -141,9 +144,10 @@ void Vanishing::next_bin(std::int64_t t_us) {
 
 void Vanishing::mark(std::size_t cell) {
     const Count& count = inside_[cell];
-    const double enough = fired_share * cell_px2_[cell] * image_per_model2_ +
-                          beyond_noise * std::sqrt(2 * count.usual);
-    if (count.more() > enough) fired_ |= 1U << cell;
+    const double more = count.more() - fired_share * cell_px2_[cell] * image_per_model2_;
+    if (more > 0 && more * more > beyond_noise * beyond_noise * 2 * count.usual) {
+        fired_ |= 1U << cell;
+    }
 }
 
 // Of the variance of the times, what a plane over the places explains. What passes has an edge on

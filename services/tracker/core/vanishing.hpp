@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "services/common/event.hpp"
+#include "services/tracker/core/clamped.hpp"
 #include "services/tracker/core/pose.hpp"
 #include "services/tracker/core/silhouette.hpp"
 
@@ -48,9 +49,12 @@ class Vanishing {
         const Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - pose.t_px;
         const double determinant = a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0);
         const double cells_per_determinant = cells_per_px_ / determinant;
-        const double column = (a(1, 1) * q.x() - a(0, 1) * q.y()) * cells_per_determinant + middle_;
-        const double row = (a(0, 0) * q.y() - a(1, 0) * q.x()) * cells_per_determinant + middle_;
-        if (!(column >= 0 && row >= 0 && column < 2 * middle_ && row < 2 * middle_)) return;
+        // The map's rim is nowhere.
+        const double last = 2 * middle_ - 1;
+        const double column =
+            clamped((a(1, 1) * q.x() - a(0, 1) * q.y()) * cells_per_determinant + middle_, 0, last);
+        const double row =
+            clamped((a(0, 0) * q.y() - a(1, 0) * q.x()) * cells_per_determinant + middle_, 0, last);
         const std::uint8_t cell =
             map_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
         if (cell == nowhere) return;

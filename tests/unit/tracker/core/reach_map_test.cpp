@@ -55,6 +55,11 @@ TEST(ReachMap, asks_everybody_whose_reach_a_pixel_is_in_as_they_move_and_grow) {
             const auto py = static_cast<std::uint16_t>(row(random));
             const auto indices = asked(map, px, py);
             EXPECT_TRUE(std::is_sorted(indices.begin(), indices.end()));
+            const auto some = map.at(px, py).some();
+            EXPECT_EQ(some.count, indices.size());
+            if (indices.size() == 1) {
+                EXPECT_EQ(some.sole, indices.front());
+            }
             for (std::size_t i = 0; i < objects; ++i) {
                 const double away_px = (reaches[i].center_px - Eigen::Vector2d(px, py)).norm();
                 if (away_px <= reaches[i].radius_px) {
