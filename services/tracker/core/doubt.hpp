@@ -37,6 +37,10 @@ class Doubt {
         before_ = before;
     }
 
+    /// Nothing is known of how the object lies.
+    void leave_angle_open() { is_angle_open_ = true; }
+    [[nodiscard]] bool is_angle_open() const { return is_angle_open_; }
+
     void settle() { wanted_ = 0; }
 
     [[nodiscard]] bool is_open() const { return wanted_ > 0; }
@@ -88,6 +92,7 @@ class Doubt {
     static constexpr double enough = 0.25;
     static constexpr double same_off_px = 3;
 
+    bool is_angle_open_ = false;
     int wanted_ = 0;
     int tries_ = 0;
     std::int64_t since_us_ = 0;

@@ -36,6 +36,8 @@ class LastEvents {
         std::uint16_t bottom = 0;
     };
 
+    static constexpr Box everywhere{0, 0, 0xffff, 0xffff};
+
     /// Calls look(event) for each in the box that came at since_us or later, in order.
     template <class Look>
     void for_each_in(const Box& box, std::int64_t since_us, const Look& look) {

@@ -36,8 +36,11 @@ constexpr double again_log_scale = 0.1;
 void Seeker::restart(Geometry geometry) {
     geometry_ = geometry;
     last_.restart();
-    object_id_ = last_object_id_ = 0;
+    forget_search();
+    last_object_id_ = 0;
     attempt_ = 0;
+    began_us_ = -1;
+    has_looked_ = false;
     due_us_ = 0;
 }
 
@@ -49,15 +52,26 @@ void Seeker::go_on(std::int64_t t_us, std::span<Track> tracks) {
     const auto track = std::find_if(tracks.begin(), tracks.end(), [&](const Track& candidate) {
         return candidate.object_id() == object_id_;
     });
-    const auto wanted = track == tracks.end() ? std::nullopt : track->wanted(t_us, geometry_);
+    if (is_chasing_ && track != tracks.end() && track->is_chased()) {
+        go_on_chasing(t_us, *track);
+        return;
+    }
+    const auto wanted =
+        track == tracks.end() || is_chasing_ ? std::nullopt : track->wanted(t_us, geometry_);
     if (!wanted || wanted->is_check != is_check_) {
-        object_id_ = 0;
+        forget_search();
         return;
     }
     const std::int64_t poses = std::min((t_us - worked_us_) * poses_per_us, most_poses);
     worked_us_ = t_us;
     search_.step(static_cast<int>(poses));
     if (search_.is_done()) end(t_us, *track);
+}
+
+void Seeker::forget_search() {
+    object_id_ = 0;
+    is_chasing_ = false;
+    chase_.stop();
 }
 
 void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
@@ -75,8 +89,11 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
         }
     }
     if (chosen == nullptr) return;
-    // All objects are looked for in one way before the next way.
-    if (chosen->object_id() <= last_object_id_) ++attempt_;
+    // All objects are looked for in one way before the next way. As a stream begins, the first way
+    // waits for the events that it needs.
+    if (began_us_ < 0) began_us_ = t_us;
+    const bool waits = !has_looked_ && t_us - began_us_ < looks[0].window_us;
+    if (chosen->object_id() <= last_object_id_ && !waits) ++attempt_;
     SearchRange range = *std::move(wanted);
     is_check_ = range.is_check;
     look_ = is_check_ ? looks_of_check[attempt_ % looks_of_check.size()]
@@ -84,10 +101,12 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
     const std::size_t count = wanted_events(*chosen, look_.times);
     last_object_id_ = chosen->object_id();
     gather(t_us, range, chosen->radius_px(), count);
-    if (gathered_.size() < (is_check_ ? wanted_events(*chosen, 0.2) : count / 8)) {
+    const std::size_t least = waits ? count : count / 8;
+    if (gathered_.size() < (is_check_ ? wanted_events(*chosen, 0.2) : least)) {
         if (is_check_) chosen->wait_to_check(t_us);
         return;
     }
+    has_looked_ = true;
     going_ = range.going;
     checked_ = range.checked;
     if (is_check_ && !going_) {
@@ -97,6 +116,7 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
         range.seeds.front() = checked_.pose;
     }
     if (going_) lead_on(t_us, *going_);
+    if (!is_check_) chase_.begin(last_, t_us - static_cast<std::int64_t>(mean_age_us(t_us)));
     map_.build(geometry_, gathered_);
     search_ = is_check_ ? ShapeSearch(chosen->contour(), chosen->outline())
                         : ShapeSearch(chosen->contour());
@@ -113,13 +133,37 @@ std::size_t Seeker::wanted_events(const Track& track, double times) {
 }
 
 void Seeker::end(std::int64_t t_us, Track& track) {
-    object_id_ = 0;
     due_us_ = t_us + idle_us;
     if (is_check_) {
+        forget_search();
         end_check(t_us, track);
         return;
     }
-    if (!search_.found()) return;
+    if (!search_.found()) {
+        forget_search();
+        return;
+    }
+    if (!chase_.is_complete()) {
+        forget_search();
+        find_nearby(t_us, track);
+        return;
+    }
+    is_chasing_ = true;
+    track.begin_chase(search_.found()->pose);
+    due_us_ = t_us;
+}
+
+// From where it was when the search began, through what came since.
+void Seeker::go_on_chasing(std::int64_t t_us, Track& track) {
+    chase_.go_on([&](const Event& event) { track.chase(event); });
+    if (!chase_.is_caught_up() && chase_.is_complete()) return;
+    forget_search();
+    due_us_ = t_us + idle_us;
+    if (!track.end_chase(t_us)) find_nearby(t_us, track);
+}
+
+// What does not go fast is near to where it was.
+void Seeker::find_nearby(std::int64_t t_us, Track& track) {
     SearchRange again;
     again.around = search_.found()->pose;
     look_again(t_us, track, std::move(again));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/common/event.hpp"
+#include "services/tracker/core/chase.hpp"
 #include "services/tracker/core/fired_map.hpp"
 #include "services/tracker/core/last_events.hpp"
 #include "services/tracker/core/shape_search.hpp"
@@ -25,7 +26,10 @@ class Seeker {
     void restart(Geometry geometry);
 
     /// Every event.
-    void see(const Event& event) { last_.see(event); }
+    void see(const Event& event) {
+        last_.see(event);
+        chase_.see(event);
+    }
 
     /// Before the first event at or after next_us() is given to a track.
     void work(std::int64_t t_us, std::span<Track> tracks) {
@@ -51,7 +55,10 @@ class Seeker {
 
     void go_on(std::int64_t t_us, std::span<Track> tracks);
     void begin(std::int64_t t_us, std::span<Track> tracks);
+    void forget_search();
     void end(std::int64_t t_us, Track& track);
+    void go_on_chasing(std::int64_t t_us, Track& track);
+    void find_nearby(std::int64_t t_us, Track& track);
     void end_check(std::int64_t t_us, Track& track);
     /// Looks again near a pose, in the newest events.
     void look_again(std::int64_t t_us, const Track& track, SearchRange again);
@@ -63,6 +70,8 @@ class Seeker {
 
     Geometry geometry_;
     LastEvents last_;
+    Chase chase_;
+    bool is_chasing_ = false;  // what the search has found
     std::vector<Event> gathered_;
     std::vector<std::int64_t> fired_us_;  // by pixel looked at, while gathering; never in between
     std::vector<std::size_t> looked_at_;  // the pixels
@@ -75,6 +84,8 @@ class Seeker {
     std::uint32_t object_id_ = 0;  // of the search that goes on; 0: none
     std::uint32_t last_object_id_ = 0;
     std::uint32_t attempt_ = 0;
+    std::int64_t began_us_ = -1;  // the stream
+    bool has_looked_ = false;     // since then
     std::int64_t due_us_ = 0;
     std::int64_t worked_us_ = 0;
 };

@@ -81,6 +81,7 @@ void Track::make_for(const RegisteredObject& object) {
 void Track::replace(const RegisteredObject& object) {
     const PoseRecord last = record(last_event_t_us_);
     make_for(object);
+    is_chased_ = false;
     estimator_->restart(constrained(last.pose, transform_), last.velocity);
     hidden_way_.constrain(transform_);
     if (is_acquiring_) acquisition_->begin(constrained(last.pose, transform_));
@@ -105,7 +106,7 @@ void Track::begin() {
     stir();
     is_searching_ = start_.search;
     is_fresh_ = true;
-    is_acquiring_ = is_covered_ = is_adrift_ = has_moved_ = false;
+    is_acquiring_ = is_covered_ = is_chased_ = is_adrift_ = has_moved_ = false;
     near_since_check_ = 0;
     unmoved_until_us_ = 0;
     silence_.restart();
@@ -136,6 +137,7 @@ void Track::begin_stream() {
     }
     vanishing_.restart();
     silence_.restart();
+    is_chased_ = false;
     has_moved_ = false;
     unmoved_until_us_ = 0;
     emerges_ = false;
@@ -196,6 +198,7 @@ void Track::weigh(std::int64_t t_us) {
 void Track::acquire(std::int64_t t_us) {
     // What was found a moment after all of it had changed has yet to show that it is there.
     if (!vanishing_.is_suspected()) vanishing_.restart();
+    const bool was_adrift = is_adrift_;
     is_acquiring_ = false;
     is_searching_ = false;
     is_adrift_ = false;
@@ -207,6 +210,7 @@ void Track::acquire(std::int64_t t_us) {
     good_.set({t_us, acquisition_->pose(), acquisition_->velocity()});
     silence_.hear(t_us);
     begin_doubt(t_us, found_confirmations, t_us);
+    if (was_adrift) doubt_.leave_angle_open();
 }
 
 Pose Track::coasted(std::int64_t t_us) const {
@@ -241,6 +245,29 @@ void Track::offer(std::int64_t t_us, const Pose& pose) {
     trial_until_us_ = t_us + trial_us;
     acquisition_began_us_ = t_us;
     acquisition_->begin(constrained(pose, transform_), trial_gate_px);
+}
+
+void Track::begin_chase(const Pose& pose) {
+    is_chased_ = true;
+    acquisition_->begin(constrained(pose, transform_), trial_gate_px);
+}
+
+void Track::chase(const Event& event) {
+    if (acquisition_->approach(event) != nullptr) acquisition_->take();
+}
+
+bool Track::end_chase(std::int64_t t_us) {
+    is_chased_ = false;
+    const bool is_here = acquisition_->is_done();
+    if (is_here) {
+        stir();
+        is_acquiring_ = true;
+        trial_until_us_ = t_us + trial_us;
+        acquisition_began_us_ = t_us;
+    } else if (is_acquiring_) {
+        acquisition_->begin(coasted(t_us));
+    }
+    return is_here;
 }
 
 void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocity) {
@@ -305,7 +332,7 @@ void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
         vanishing_.restart();
     }
     if (emerged_us_ >= 0 && seconds(t_us - emerged_us_) > tracker_.coast_s) give_up(t_us);
-    if (t_us < trial_until_us_) return;
+    if (t_us < trial_until_us_ || is_chased_) return;
     if (is_searching_) is_acquiring_ = false;
     if (!is_acquiring_ && !is_searching_) listen(t_us);
     const bool is_coasting = seconds(t_us - grip_lost_us_) < tracker_.coast_s;
@@ -316,13 +343,13 @@ void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
 }
 
 Reach Track::reach(std::int64_t t_us) const {
-    if (is_covered_ || (is_searching_ && !is_acquiring_)) return {};
+    if (is_covered_ || is_chased_ || (is_searching_ && !is_acquiring_)) return {};
     if (is_acquiring_) return {acquisition_->pose().t_px, acquisition_->reach_px(t_us)};
     return {estimator_->pose().t_px, estimator_->reach_px(t_us)};
 }
 
 const Approach* Track::approach(const Event& event, const PixelPast& past) {
-    if (is_covered_ || (is_searching_ && !is_acquiring_)) return nullptr;
+    if (is_covered_ || is_chased_ || (is_searching_ && !is_acquiring_)) return nullptr;
     if (is_acquiring_) return acquisition_->approach(event);
     const Approach* const near = estimator_->approach(event, past);
     constexpr double nearest2_px2 = Vanishing::nearest_px * Vanishing::nearest_px;

@@ -85,6 +85,13 @@ class Track {
     [[nodiscard]] std::optional<SearchRange> wanted(std::int64_t t_us, Geometry geometry) const;
     /// The object may be here: it is tried.
     void offer(std::int64_t t_us, const Pose& pose);
+    /// The object was here some time ago: chase() with every event since then finds where it is,
+    /// and until end_chase() it takes no others.
+    void begin_chase(const Pose& pose);
+    void chase(const Event& event);
+    /// False where it got lost on the way. Else it is tried.
+    bool end_chase(std::int64_t t_us);
+    [[nodiscard]] bool is_chased() const { return is_chased_; }
     /// True where the object is to be moved to what was found.
     bool take_finding(std::int64_t t_us, const Doubt::Finding& finding) {
         return doubt_.take(t_us, finding);
@@ -183,6 +190,7 @@ class Track {
     std::int64_t adrift_since_us_ = -1;
     bool is_searching_ = false;
     bool is_acquiring_ = false;
+    bool is_chased_ = false;    // through events of the past, by its acquisition
     bool is_fresh_ = true;      // since the restart no event was taken
     bool has_moved_ = false;    // by an event since the last weigh()
     int near_since_check_ = 0;  // events, since one found too few of them

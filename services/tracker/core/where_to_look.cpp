@@ -41,7 +41,7 @@ SearchRange range_of_check(std::int64_t t_us, const Coast& own, const Doubt& dou
     range.is_check = true;
     range.since_us = doubt.since_us();
     range.reach_px = check_reach_px;
-    range.angle_rad = check_angle_rad;
+    range.angle_rad = doubt.is_angle_open() ? std::numbers::pi : check_angle_rad;
     range.usual_distance_px = check_reach_px / 2;
     // By turns: as it is thought to go, and as if nothing were known.
     const bool leads_on = doubt.tries() % 2 == 0;

@@ -19,6 +19,17 @@ TEST(WhereToLook, is_farther_about_the_longer_a_new_stream_has_left_the_object_a
     EXPECT_GT(range_adrift(last, 0, geometry, false).log_scale, 0);
 }
 
+TEST(WhereToLook, is_in_any_rotation_where_nothing_is_known_of_how_the_object_lies) {
+    const Coast own{50'000, pose_of(100, 90, 0.3), {}};
+    Doubt doubt;
+    doubt.begin(0, 2, 0);
+    EXPECT_LT(range_of_check(50'000, own, doubt, own.pose, 0.5).angle_rad, 1);
+    doubt.leave_angle_open();
+    EXPECT_GE(range_of_check(50'000, own, doubt, own.pose, 0.5).angle_rad, 3.14);
+    doubt.begin(0, 2, 0);
+    EXPECT_LT(range_of_check(50'000, own, doubt, own.pose, 0.5).angle_rad, 1);
+}
+
 TEST(WhereToLook, is_near_a_lost_object_and_farther_about_the_faster_it_went) {
     const SearchRange slow = range_near({0, pose_of(40, 50, 0), {10, 0, 0, 0, 0}}, 0.2, true);
     const SearchRange fast = range_near({0, pose_of(40, 50, 0), {400, 0, 3, 0, 0}}, 0.2, true);
