@@ -112,7 +112,8 @@ class Scores:
         for row in files.objects:
             # A shape that was searched for may be found turned by one of its own turns.
             score = objects.get(row["object"])
-            if row["mode"] == "search" and score and "lost_symmetric" in score:
+            is_searched = row["mode"] == "search" or getattr(tracker, "searches", False)
+            if is_searched and score and "lost_symmetric" in score:
                 score.update(lost=score["lost_symmetric"], E=score["E_symmetric"],
                              lies=score["lies_symmetric"])
         return {"objects": objects, **result}

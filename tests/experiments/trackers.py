@@ -34,9 +34,11 @@ class Pursuit:
     transform: str = ""  # instead of the one that the scene states
     parameters: tuple = ()
     start_off_px: float = 0
+    searches: bool = False  # nothing is said of where the objects are
 
     def key(self):
         off = f" off {self.start_off_px}" if self.start_off_px else ""
+        off += " searched" if self.searches else ""
         return f"pursuit {self.preset} {self.estimator} {self.strategy} {self.transform} " \
                f"{self.parameters}{off} {digest_of_program(CTL)}"
 
@@ -56,7 +58,8 @@ class Pursuit:
             arguments += ["--strategy", self.strategy]
         stream = os.path.basename(os.path.dirname(files.events))
         for start in files.starts():
-            arguments += ["--model", moved(start, self.start_off_px, stream)]
+            given = start.partition("@")[0] if self.searches else start
+            arguments += ["--model", moved(given, self.start_off_px, stream)]
         _, said = run(arguments)
         return poses, float(re.search(r"events in ([0-9.]+) s", said).group(1))
 
