@@ -90,6 +90,15 @@ void FiredMap::add_up() {
     }
 }
 
+void FiredMap::copy_row(int row, int column, std::span<std::uint8_t> to) const {
+    std::fill(to.begin(), to.end(), std::uint8_t{farthest});
+    const int first = std::max(column, left_);
+    const int end = std::min(column + static_cast<int>(to.size()), left_ + width_);
+    if (row < top_ || row >= top_ + height_ || first >= end) return;
+    const std::uint8_t* const from = &distance_[at(first - left_, row - top_)];
+    std::copy(from, from + (end - first), to.begin() + (first - column));
+}
+
 FiredMap::Around FiredMap::around(int column, int row, int half_side) const {
     const int left = std::clamp(column - half_side, 0, columns_);
     const int right = std::clamp(column + half_side + 1, 0, columns_);

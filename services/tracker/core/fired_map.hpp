@@ -30,6 +30,9 @@ class FiredMap {
         return distance_[at(x, y)];
     }
 
+    /// The distances of cells in a row, from this one on.
+    void copy_row(int row, int column, std::span<std::uint8_t> to) const;
+
     /// Over the square of cells around this one, cut at the image's border.
     struct Around {
         double fired = 0;     ///< How many cells fired.

@@ -10,11 +10,6 @@
 namespace pursuit::tracker {
 namespace {
 
-constexpr double stride_px = 3;
-constexpr double rim_step_px = 4;  // the rim moves so far from one angle to the next
-constexpr double scale_step = 0.1;
-constexpr std::size_t most_turns = 64 * 9;
-
 // Below: chance, or a part of the shape alone.
 constexpr double least_score = 0.4;
 // The best of very many poses fits noise better than chance, the more of it there is.
@@ -31,12 +26,6 @@ constexpr double near_it_px = 6;
 constexpr double seed_bonus = 0.05;
 constexpr double far_malus_of_check = 0.05;
 constexpr double far_malus = 0.15;
-
-// A pose of the coarse pass is at least this far from its surroundings.
-constexpr double least_z = 2;
-
-// Poses nearer than this to each other are one.
-constexpr int same_cells = 6;
 
 constexpr std::size_t directions = 8;
 constexpr double sideways = 0.1;  // what moves along itself still fires a little
@@ -55,9 +44,10 @@ ShapeSearch::ShapeSearch(const Contour& contour, const Outline& outline)
         pieces_.push_back(pieces[i]);
         length_px_ += std::hypot(pieces[i].bx - pieces[i].ax, pieces[i].by - pieces[i].ay);
     }
-    coarse_ = samples(coarse_points);
+    std::vector<Eigen::Vector2d> coarse_px;
+    for (const Sample& sample : samples(CoarseSearch::points)) coarse_px.push_back(sample.at_px);
+    coarse_ = CoarseSearch(coarse_px, radius_px_, length_px_);
     fine_ = samples(fine_points);
-    best_.reserve(kept + 1);
 }
 
 void ShapeSearch::draw() {
@@ -110,65 +100,21 @@ void ShapeSearch::begin(const FiredMap& map, const SearchRange& range) {
     map_ = &map;
     range_ = range;
     found_.reset();
-    best_.clear();
     seed_next_ = fine_next_ = 0;
-    turns_.clear();
-    stride_ = std::max(1, static_cast<int>(stride_px / map.cell_px()));
-    const double middle_rad = theta_rad(range.around.a);
-    const double middle_scale = std::sqrt(std::abs(range.around.a(0, 0) * range.around.a(1, 1) -
-                                                   range.around.a(0, 1) * range.around.a(1, 0)));
-    const double rim_px = std::max(radius_px_ * middle_scale, 4.0);
-    const double angle_rad = std::min(range.angle_rad, std::numbers::pi);
-    const int angles =
-        std::clamp(static_cast<int>(std::ceil(2 * angle_rad * rim_px / rim_step_px)), 1, 64);
-    const int scales =
-        range.log_scale > 0 ? 2 * static_cast<int>(std::ceil(range.log_scale / scale_step)) + 1 : 1;
-    for (int s = 0; s < std::min(scales, 9); ++s) {
-        for (int i = 0; i < angles && turns_.size() < most_turns; ++i) {
-            Turn turn;
-            turn.angle_rad = middle_rad - angle_rad + (i + 0.5) * 2 * angle_rad / angles;
-            turn.scale = middle_scale *
-                         std::exp(scales == 1 ? 0 : range.log_scale * (2.0 * s / (scales - 1) - 1));
-            const Eigen::Matrix2d a = turn.scale * rotation(turn.angle_rad);
-            for (std::size_t k = 0; k < coarse_points; ++k) {
-                const Eigen::Vector2d d = a * coarse_[k].at_px / map.cell_px();
-                turn.dx[k] = static_cast<std::int16_t>(std::lround(d.x()));
-                turn.dy[k] = static_cast<std::int16_t>(std::lround(d.y()));
-            }
-            turns_.push_back(turn);
-        }
-    }
-    const auto cell = [&](double px, int end) {
-        return std::clamp(static_cast<int>(px / map.cell_px()), 0, end);
-    };
-    const Eigen::Vector2d t = range.around.t_px;
-    first_column_ = cell(t.x() - range.reach_px, map.columns() - 1);
-    end_column_ = cell(t.x() + range.reach_px, map.columns() - 1) + 1;
-    first_row_ = cell(t.y() - range.reach_px, map.rows() - 1);
-    end_row_ = cell(t.y() + range.reach_px, map.rows() - 1) + 1;
-    turn_ = 0;
-    column_ = first_column_;
-    row_ = first_row_;
+    coarse_.begin(map, range);
     stage_ = Stage::coarse;
 }
 
 void ShapeSearch::step(int poses) {
-    while (poses > 0 && stage_ == Stage::coarse) {
-        look_at(turns_[turn_], turn_, column_, row_);
-        --poses;
-        column_ += stride_;
-        if (column_ < end_column_) continue;
-        column_ = first_column_;
-        row_ += stride_;
-        if (row_ < end_row_) continue;
-        row_ = first_row_;
-        if (++turn_ == turns_.size()) stage_ = Stage::fine;
+    if (stage_ == Stage::coarse) {
+        coarse_.step(poses);
+        if (coarse_.is_done()) stage_ = Stage::fine;
     }
     while (poses > 0 && stage_ == Stage::fine) {
         if (seed_next_ < range_.seeds.size()) {
             weigh(range_.seeds[seed_next_++], true);
-        } else if (fine_next_ < best_.size()) {
-            weigh(pose_of(best_[fine_next_++]), false);
+        } else if (fine_next_ < coarse_.count()) {
+            weigh(coarse_.pose(fine_next_++), false);
         } else {
             stage_ = Stage::done;
         }
@@ -193,53 +139,6 @@ void ShapeSearch::weigh(const Pose& pose, bool is_seed) {
     if ((is_sure || range_.is_check) && (!found_ || worth > found_->score)) {
         found_ = Found{fit_pose, worth, is_sure};
     }
-}
-
-void ShapeSearch::look_at(const Turn& turn, std::size_t turn_index, int column, int row) {
-    const double rim_cells = radius_px_ * turn.scale / map_->cell_px();
-    const auto around = map_->around(column, row, static_cast<int>(0.8 * rim_cells) + 2);
-    if (around.fired * map_->cell_px() < 0.2 * length_px_ * turn.scale) return;
-    const double deviation = std::sqrt(std::max(around.variance, 1.0) / coarse_points);
-    const double wanted_z = best_.size() < kept ? least_z : std::max(least_z, best_.back().z);
-    const double most = (around.mean - wanted_z * deviation) * coarse_points;
-    if (!(most > 0)) return;
-    int sum = 0;
-    const int bound = static_cast<int>(most);
-    for (std::size_t k = 0; k < coarse_points; ++k) {
-        sum += map_->distance(column + turn.dx[k], row + turn.dy[k]);
-        if (sum > bound) return;
-    }
-    keep({(around.mean - static_cast<double>(sum) / coarse_points) / deviation, turn_index, column,
-          row});
-}
-
-void ShapeSearch::keep(const Candidate& candidate) {
-    for (Candidate& other : best_) {
-        const double turned = std::remainder(
-            turns_[other.turn].angle_rad - turns_[candidate.turn].angle_rad, 2 * std::numbers::pi);
-        const bool is_same = std::abs(other.column - candidate.column) <= same_cells &&
-                             std::abs(other.row - candidate.row) <= same_cells &&
-                             std::abs(turned) < 0.3;
-        if (!is_same) continue;
-        if (other.z >= candidate.z) return;
-        other = candidate;
-        std::stable_sort(best_.begin(), best_.end(),
-                         [](const auto& l, const auto& r) { return l.z > r.z; });
-        return;
-    }
-    const auto place = std::find_if(best_.begin(), best_.end(),
-                                    [&](const Candidate& other) { return other.z < candidate.z; });
-    best_.insert(place, candidate);
-    if (best_.size() > kept) best_.pop_back();
-}
-
-Pose ShapeSearch::pose_of(const Candidate& candidate) const {
-    const Turn& turn = turns_[candidate.turn];
-    Pose pose;
-    pose.t_px << (candidate.column + 0.5) * map_->cell_px() - 0.5,
-        (candidate.row + 0.5) * map_->cell_px() - 0.5;
-    pose.a = turn.scale * rotation(turn.angle_rad);
-    return pose;
 }
 
 double ShapeSearch::mean_distance(const Pose& pose) const {

@@ -1,39 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "services/tracker/core/coast.hpp"
+#include "services/tracker/core/coarse_search.hpp"
 #include "services/tracker/core/contour.hpp"
 #include "services/tracker/core/fired_map.hpp"
 #include "services/tracker/core/outline.hpp"
 #include "services/tracker/core/pose.hpp"
+#include "services/tracker/core/search_range.hpp"
 
 namespace pursuit::tracker {
 
-/// Where a shape may be.
-struct SearchRange {
-    Pose around;
-    double reach_px = 0;            ///< Of T, either way in x and y.
-    double angle_rad = 0;           ///< Either way; π or more: any.
-    double log_scale = 0;           ///< Either way; 0 keeps the scale.
-    double usual_distance_px = 30;  ///< Places so far off count one standard deviation less.
-
-    std::vector<Pose> seeds;    ///< Poses to be looked at first, and a little preferred.
-    bool is_check = false;      ///< Whether it is where it is thought to be: what fits best counts.
-    std::int64_t since_us = 0;  ///< Events before it tell nothing.
-    Coast checked;              ///< What is checked: where it is and how it goes.
-    std::optional<Coast> going;  ///< How events are led on to where they would come now.
-};
-
-/// Finds a shape in what fired lately, without a good guess. What speaks for a pose is that the
-/// contour lies nearer to pixels that fired than its surroundings do, in standard deviations, so
-/// that clutter is not taken for a shape, and that it explains what fired there. Coarse over the
-/// whole range with few points of the contour; the best are then moved to where they fit, and
-/// looked at with many.
+/// Finds a shape in what fired lately, without a good guess: coarse over the whole range with few
+/// points of the contour (CoarseSearch); the best are then moved to where they fit, and looked at
+/// with many. What speaks for these is that more of the contour fired than what lies beside it, so
+/// that clutter is not taken for a shape, and that it explains what fired there.
 ///
 ///     begin() ─► coarse ─► fine ─► done
 ///
@@ -66,34 +50,16 @@ class ShapeSearch {
     [[nodiscard]] const std::optional<Found>& found() const { return found_; }
 
  private:
-    static constexpr int coarse_points = 24;
     static constexpr int fine_points = 72;
-    static constexpr std::size_t kept = 16;
     enum class Stage { coarse, fine, done };
 
-    /// A pose of the coarse pass, by its angle and scale, and cells.
-    struct Candidate {
-        double z = 0;
-        std::size_t turn = 0;
-        int column = 0;
-        int row = 0;
-    };
-    struct Turn {
-        double angle_rad = 0;
-        double scale = 1;
-        std::array<std::int16_t, coarse_points> dx{};
-        std::array<std::int16_t, coarse_points> dy{};
-    };
     struct Sample {
         Eigen::Vector2d at_px;      ///< Model frame.
         Eigen::Vector2d normal_px;  ///< Of length 1.
     };
 
-    void look_at(const Turn& turn, std::size_t turn_index, int column, int row);
-    void keep(const Candidate& candidate);
     /// Fits the pose, and keeps it where it is the best so far.
     void weigh(const Pose& pose, bool is_seed);
-    [[nodiscard]] Pose pose_of(const Candidate& candidate) const;
     [[nodiscard]] double mean_distance(const Pose& pose) const;
     [[nodiscard]] Pose fitted(Pose pose) const;
     /// How much of the contour fired beyond chance, and how much beside it.
@@ -108,7 +74,6 @@ class ShapeSearch {
     std::vector<Piece> pieces_;
     double length_px_ = 0;
     double radius_px_ = 0;
-    std::vector<Sample> coarse_;
     std::vector<Sample> fine_;
     FiredMap drawn_;  // the contour itself, as if it had fired all over; drawn when asked for
     Eigen::Vector2d drawn_from_px_{0, 0};
@@ -116,14 +81,7 @@ class ShapeSearch {
     const FiredMap* map_ = nullptr;
     SearchRange range_;
     Stage stage_ = Stage::done;
-    std::vector<Turn> turns_;
-    int first_column_ = 0, end_column_ = 0;
-    int first_row_ = 0, end_row_ = 0;
-    int stride_ = 3;
-    std::size_t turn_ = 0;
-    int row_ = 0;
-    int column_ = 0;
-    std::vector<Candidate> best_;  // falling z
+    CoarseSearch coarse_;
     std::size_t seed_next_ = 0;
     std::size_t fine_next_ = 0;
     std::optional<Found> found_;
