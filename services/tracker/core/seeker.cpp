@@ -16,6 +16,10 @@ constexpr std::int64_t never_us = std::int64_t{-1} << 40;
 // How often it is asked who wants to be looked for.
 constexpr std::int64_t idle_us = 2'000;
 
+// After a search that found nothing: the more are made of a shape that is not there, the sooner
+// one finds it in something else.
+constexpr std::int64_t rest_us = 25'000;
+
 // Poses looked at for each µs of event time, and for an event at most.
 constexpr std::int64_t poses_per_us = 40;
 constexpr std::int64_t most_poses = 4'000;
@@ -141,6 +145,7 @@ void Seeker::end(std::int64_t t_us, Track& track) {
     }
     if (!search_.found()) {
         forget_search();
+        due_us_ = t_us + rest_us;
         return;
     }
     if (!chase_.is_complete()) {
