@@ -9,6 +9,7 @@
 #include "services/tracker/core/pixel_past.hpp"
 #include "services/tracker/core/pose_record.hpp"
 #include "services/tracker/core/registration.hpp"
+#include "services/tracker/core/usual_way.hpp"
 
 namespace pursuit::tracker {
 
@@ -46,6 +47,8 @@ class Estimator {
     }
     /// How much of what the object's motion would show is not hidden, above 0 … 1.
     virtual void set_visible_share(double share) { static_cast<void>(share); }
+    /// How it goes as a rule: what is half hidden goes on so.
+    virtual void set_usual_way(const UsualWay& way) { static_cast<void>(way); }
 
     /// How long a pixel of the sensor is blind after an event, as far as is known.
     virtual void set_blind_us(double blind_us) { static_cast<void>(blind_us); }

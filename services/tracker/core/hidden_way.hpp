@@ -6,6 +6,7 @@
 #include "services/tracker/core/coast.hpp"
 #include "services/tracker/core/kinds.hpp"
 #include "services/tracker/core/slope.hpp"
+#include "services/tracker/core/usual_way.hpp"
 
 namespace pursuit::tracker {
 
@@ -24,6 +25,9 @@ class HiddenWay {
     [[nodiscard]] bool is_due(std::int64_t t_us) const { return slow_.is_due(t_us); }
     void learn(std::int64_t t_us, const Pose& pose);
 
+    /// How it has gone so far, once that is known.
+    [[nodiscard]] UsualWay usual() const;
+
     /// It is covered from now on; `now`: what is known of it, its velocity where none was learnt.
     void begin(const Coast& now);
     /// Time went on by dt_s.
@@ -38,9 +42,14 @@ class HiddenWay {
 
  private:
     static constexpr double memory_s = 0.8;
+    static constexpr double quick_memory_s = 0.2;
 
     Slope<3> slow_{memory_s};  // x, y, θ
-    double theta_rad_ = 0;     // unwrapped
+    Slope<3> quick_{quick_memory_s};
+    double samples_ = 0;
+    double strays2_px2_s2_ = 0;  // of the quick velocity from the slow one, squared
+    double strays2_rad2_s2_ = 0;
+    double theta_rad_ = 0;  // unwrapped
     Coast coast_;
 };
 

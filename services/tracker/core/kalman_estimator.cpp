@@ -68,6 +68,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     clock_.restart();
     clutter_.restart();
     watch_.restart(pose, velocity);
+    usual_way_ = {};
     stands_still_ = false;
     backlash_.restart(contour_.pieces().pieces().size());
     edge_polarity_.restart(contour_.pieces().pieces().size());
@@ -122,9 +123,13 @@ void KalmanEstimator<kind>::resume(std::int64_t t_us, const Pose& pose, const Ve
                                    double way_px) {
     const double per_px = 1 / (contour_.gyration_px() * std::sqrt(std::abs(pose.a.determinant())));
     const double along_px = resumed_sigma_px + resumed_sigma_of_way * way_px;
+    Step speed_sigma = step_of(resumed_speed_sigma_px_s, resumed_speed_sigma_px_s * per_px);
+    if (usual_way_.is_known()) {
+        speed_sigma.template head<2>().setConstant(usual_way_.strays_px_s);
+        if constexpr (usual_components > 2) speed_sigma(2) = usual_way_.strays_rad_s;
+    }
     filter_.restart(pose, M::twist_of(velocity),
-                    step_of(resumed_sigma_px, resumed_turn_sigma_px * per_px),
-                    step_of(resumed_speed_sigma_px_s, resumed_speed_sigma_px_s * per_px));
+                    step_of(resumed_sigma_px, resumed_turn_sigma_px * per_px), speed_sigma);
     Eigen::Vector2d direction(velocity.vx_px_s, velocity.vy_px_s);
     if (direction.norm() > 0) direction.normalize();
     filter_.add_position_variance((along_px * along_px - resumed_sigma_px * resumed_sigma_px) *
@@ -223,6 +228,9 @@ void KalmanEstimator<kind>::spread(double dt_s) {
     if constexpr (kind == TransformKind::paper_affine) noise.template tail<2>() *= 0.7 * 0.7;
     if constexpr (kind == TransformKind::full_affine) noise.template tail<4>() *= 0.7 * 0.7;
     if constexpr (is_bent) bend_.predict(speed_px_s_ * dt_s);
+    if (visible_share_ < UsualWay::least_seen_share && usual_way_.is_known()) {
+        go_as_usual(dt_s, noise);
+    }
     filter_.spread(dt_s, noise);
 
     // Silence means standing still; less so where what is hidden, and whose the events beside it
@@ -252,6 +260,19 @@ void KalmanEstimator<kind>::spread(double dt_s) {
         speed_px_s_ * speed_px_s_ + filter_.speed_variance(size_.gyration_px * size_.gyration_px));
     spread_after_s_ = std::min(spread_s, spread_way_px / may_go_px_s);
     find_silent_way();
+}
+
+// A velocity that strays from the usual one for a while (Ornstein and Uhlenbeck's process).
+template <TransformKind kind>
+void KalmanEstimator<kind>::go_as_usual(double dt_s, Step& noise) {
+    constexpr double for_s = UsualWay::strays_for_s;
+    const double kept = std::exp(-dt_s / for_s);
+    const Step to = M::twist_of(usual_way_.velocity);
+    for (int i = 0; i < usual_components; ++i) {
+        const double strays = i < 2 ? usual_way_.strays_px_s : usual_way_.strays_rad_s;
+        noise(i) = std::min(noise(i), 2 * strays * strays / for_s);
+        filter_.draw_twist(i, to(i), kept);
+    }
 }
 
 template <TransformKind kind>

@@ -30,6 +30,7 @@ class KalmanEstimator : public Estimator {
     void resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity,
                 double way_px) override;
     void set_visible_share(double share) override { visible_share_ = share; }
+    void set_usual_way(const UsualWay& way) override { usual_way_ = way; }
     void set_blind_us(double blind_us) override { lead_prior_.set_blind_us(blind_us); }
     const Approach* approach(const Event& event, const PixelPast& past) override;
     [[nodiscard]] double likelihood() const override {
@@ -60,6 +61,9 @@ class KalmanEstimator : public Estimator {
     /// Lookups and areas are as they were for every pose of an isometry.
     static constexpr bool keeps_its_size = kind == TransformKind::isometry;
 
+    /// Components of a twist of which a UsualWay tells: x, y and the angle, where that is one.
+    static constexpr int usual_components = kind == TransformKind::full_affine ? 2 : 3;
+
     /// The same in x and in y, and in every other component.
     static Step step_of(double place, double about) {
         Step step = Step::Constant(about);
@@ -76,6 +80,8 @@ class KalmanEstimator : public Estimator {
     /// How far it may go unheard: on a longer way so many events should have come that it stands.
     void find_silent_way();
     void learn(double r_px, double share);
+    /// What is half hidden goes as usual, more or less; noise: how it can turn away.
+    void go_as_usual(double dt_s, Step& noise);
     /// What the filter knows, dt_s after it was told last.
     void spread(double dt_s);
     /// Of the contour, as the filter has it, in the mean; squared.
@@ -137,6 +143,7 @@ class KalmanEstimator : public Estimator {
     bool stands_still_ = false;  // among noise
     LeadPrior lead_prior_;
     double visible_share_ = 1;
+    UsualWay usual_way_;
     double most_pose_sigma_px_ = 0;
     double speed_px_s_ = 0;       // u, when the filter was spread last
     double unspread_s_ = 0;       // since then

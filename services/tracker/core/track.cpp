@@ -38,10 +38,7 @@ constexpr int found_confirmations = 2;
 
 // Of what shows of a moving object: below the first it is covered, above the second no more.
 constexpr double covered_share = 0.2;
-constexpr double uncovered_share = 0.3;
-
-// So much of it must show for its velocity to be learnt.
-constexpr double least_seen_share = 0.7;
+constexpr double uncovered_share = 0.22;
 
 // Longer than this a covered object is not believed to have gone on.
 constexpr double longest_covered_s = 4;
@@ -443,7 +440,7 @@ void Track::tally(std::int64_t t_us, bool at_once) {
     if (is_searching_ || is_acquiring_ || !grip_.health().is_fair()) return;
     // What neither moves nor makes events tells nothing.
     if (!outline_.is_empty() || speed_px_s() > 0) tally_.learn(outline_, going());
-    if (visible_share_ >= least_seen_share && hidden_way_.is_due(t_us)) {
+    if (visible_share_ >= UsualWay::least_seen_share && hidden_way_.is_due(t_us)) {
         hidden_way_.learn(t_us, pose());
     }
 }
@@ -452,6 +449,7 @@ void Track::see(std::int64_t t_us) {
     visible_share_ = going().visible_share(outline_, radius_px());
     find_what_to_watch();
     estimator_->set_visible_share(std::max(visible_share_, covered_share));
+    estimator_->set_usual_way(hidden_way_.usual());
     // Held by little of its contour it may have slid along what was seen of it.
     if (emerges_ && emerged_us_ < 0 && visible_share_ > checked_share && can_be_hidden()) {
         emerges_ = false;

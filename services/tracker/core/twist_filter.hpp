@@ -127,6 +127,12 @@ class TwistFilter {
         lead_px_ = lead_px_.cwiseMax(low_px).cwiseMin(high_px);
     }
     void slow_down(double factor) { twist_ *= factor; }
+    /// Of what is off from this twist, so much is left.
+    void draw_twist(int i, double to, double kept) {
+        twist_(i) = to + (twist_(i) - to) * kept;
+        covariance_.row(dof + i) *= kept;
+        covariance_.col(dof + i) *= kept;
+    }
     void add_position_variance(const Eigen::Matrix2d& variance_px2) {
         covariance_.template topLeftCorner<2, 2>() += variance_px2;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/event_clock.hpp"
 #include "services/tracker/core/recent_pixels.hpp"
 #include "services/tracker/core/slope.hpp"
@@ -102,6 +103,32 @@ TEST(KalmanEstimator, follows_what_turns_fast_from_its_first_events_on) {
         }
         EXPECT_LT(worst_px, 2) << seed;
     }
+}
+
+// What shows of it is the middle of its rear, which does not tell whether it goes down as well.
+TEST(KalmanEstimator, goes_as_usual_where_the_little_that_shows_does_not_tell) {
+    const Shape bar = test::polygon("bar", {{-30, -12}, {30, -12}, {30, 12}, {-30, 12}});
+    const auto truth = [](double t_us) { return pose_of(60 + 40e-6 * t_us, 90, 0); };
+    auto events = outline_events(bar, truth, 0, 500'000, 160, 0, small_sensor, 3);
+    std::erase_if(events, [&](const Event& event) {
+        const Eigen::Vector2d at_px =
+            Eigen::Vector2d(event.x, event.y) - truth(static_cast<double>(event.t_us)).t_px;
+        return at_px.x() > -20 || std::abs(at_px.y()) > 8;
+    });
+    const auto gone_down_px = [&](const UsualWay& way) {
+        const auto estimator =
+            make_estimator(EstimatorKind::kalman, TransformKind::isometry, bar, {});
+        estimator->restart(truth(0), {});
+        estimator->set_usual_way(way);
+        estimator->set_visible_share(0.3);
+        estimator->resume(0, truth(0), {40, 8, 0, 0, 0}, 0);
+        for (const Event& event : events) {
+            if (estimator->approach(event, {}) != nullptr) estimator->take(1);
+        }
+        return estimator->pose().t_px.y() - 90;
+    };
+    EXPECT_NEAR(gone_down_px({}), 4, 1);
+    EXPECT_NEAR(gone_down_px({{40, 0, 0, 0, 0}, 1, 0.01}), 2.5, 0.5);
 }
 
 TEST(EventClock, tells_the_speed_by_the_rate) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace pursuit::tracker {
 namespace {
 
@@ -21,6 +23,38 @@ TEST(HiddenWay, goes_on_at_the_velocity_of_the_last_second) {
     const Pose last = way.pose_at(1'500'000);
     EXPECT_NEAR((last.t_px - truth(1'500'000).t_px).norm(), 0, 0.01);
     EXPECT_NEAR((way.last().pose.a - truth(way.last().t_us).a).norm(), 0, 1e-3);
+}
+
+TEST(HiddenWay, knows_how_it_goes_as_a_rule_when_it_was_seen_for_a_while) {
+    HiddenWay way;
+    std::int64_t t_us = 0;
+    const auto learn_until = [&](std::int64_t until_us) {
+        for (; t_us < until_us; t_us += 16'000) {
+            const double t_s = static_cast<double>(t_us) * 1e-6;
+            way.learn(t_us, pose_of(20 + 80 * t_s, 50, 3 + 0.5 * t_s));
+        }
+    };
+    learn_until(200'000);
+    EXPECT_FALSE(way.usual().is_known());
+    learn_until(1'000'000);
+    ASSERT_TRUE(way.usual().is_known());
+    EXPECT_NEAR(way.usual().velocity.vx_px_s, 80, 0.01);
+    EXPECT_NEAR(way.usual().velocity.omega_rad_s, 0.5, 1e-4);
+}
+
+TEST(HiddenWay, strays_the_more_from_the_usual_the_more_it_did) {
+    const auto strays_px_s = [](double sway_px) {
+        HiddenWay way;
+        for (std::int64_t t_us = 0; t_us < 2'000'000; t_us += 16'000) {
+            const double t_s = static_cast<double>(t_us) * 1e-6;
+            way.learn(t_us, pose_of(80 * t_s, sway_px * std::sin(6 * t_s), 0));
+        }
+        return way.usual().strays_px_s;
+    };
+    // It sways at 12 px/s at most.
+    EXPECT_GT(strays_px_s(2), strays_px_s(0) + 1.5);
+    EXPECT_LT(strays_px_s(2), strays_px_s(0) + 12);
+    EXPECT_LT(strays_px_s(0), 0.05 * 80);
 }
 
 TEST(HiddenWay, goes_on_as_it_did_where_nothing_was_learnt) {
