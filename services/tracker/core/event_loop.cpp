@@ -130,7 +130,7 @@ bool EventLoop::accepts(const Event& event) {
 // What is done from time to time, before the first event at or after wake_us_.
 void EventLoop::wake(std::int64_t t_us) {
     if (tells_occlusion_ && t_us >= occlusion_.next_us()) occlusion_.look(t_us, tracks_);
-    seeker_.work(t_us, tracks_);
+    seeker_.work(t_us, tracks_, occlusion_);
     if (t_us >= next_round_us_) go_round(t_us);
     wake_us_ = std::min({grid_.next_us(), next_round_us_, seeker_.next_us()});
     if (tells_occlusion_) wake_us_ = std::min(wake_us_, occlusion_.next_us());

@@ -13,9 +13,6 @@ constexpr double memory_s = 0.5;
 
 // A contour this deep inside another is told from the other's own.
 constexpr double told_depth_px = 2.5;
-// A contour this near outside the other's is hidden in the other's events.
-constexpr double band_px = 1.5;
-
 constexpr double least_expected = 20;
 constexpr double hidden_share = 0.25;
 constexpr double front_share = 0.4;
@@ -26,9 +23,7 @@ constexpr double forgotten = 0.5;  // expected events
 
 // How deep a place of the image lies inside a track's contour, image px.
 double image_depth_px(const Track& front, const Eigen::Vector2d& p) {
-    const Pose& pose = front.pose();
-    const double scale = std::sqrt(std::abs(pose.a.determinant()));
-    return front.silhouette().depth_px(pose.a.inverse() * (p - pose.t_px)) * scale;
+    return front.silhouette().depth_px(p, front.pose());
 }
 
 }  // namespace

@@ -27,6 +27,12 @@ class Occlusion {
     /// The tracks are others than before, or time begins anew.
     void restart();
 
+    /// The indices of those that lie over it, as of the last look().
+    [[nodiscard]] std::span<const std::size_t> over(std::size_t index) const {
+        if (index >= hidden_by_.size()) return {};
+        return hidden_by_[index];
+    }
+
     /// Whether an event at this place cannot be the object's, because another lies over it.
     /// `index` and `tracks` as of the last look().
     [[nodiscard]] bool hides(std::size_t index, const Event& event,
@@ -34,6 +40,9 @@ class Occlusion {
         return index < hidden_by_.size() && !hidden_by_[index].empty() &&
                is_hidden(index, event, tracks);
     }
+
+    /// A contour this near outside that of what lies over it is hidden in the other's events.
+    static constexpr double band_px = 1.5;
 
  private:
     /// Of one object's contour inside another.

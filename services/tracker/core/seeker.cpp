@@ -48,9 +48,9 @@ void Seeker::restart(Geometry geometry) {
     due_us_ = 0;
 }
 
-void Seeker::go_on(std::int64_t t_us, std::span<Track> tracks) {
+void Seeker::go_on(std::int64_t t_us, std::span<Track> tracks, const Occlusion& occlusion) {
     if (object_id_ == 0) {
-        begin(t_us, tracks);
+        begin(t_us, tracks, occlusion);
         return;
     }
     const auto track = std::find_if(tracks.begin(), tracks.end(), [&](const Track& candidate) {
@@ -78,7 +78,7 @@ void Seeker::forget_search() {
     chase_.stop();
 }
 
-void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
+void Seeker::begin(std::int64_t t_us, std::span<Track> tracks, const Occlusion& occlusion) {
     due_us_ = t_us + idle_us;
     // By turns: those after the last first.
     Track* chosen = nullptr;
@@ -104,6 +104,13 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks) {
                       : looks[attempt_ % looks.size()];
     const std::size_t count = wanted_events(*chosen, look_.times);
     last_object_id_ = chosen->object_id();
+    over_.clear();
+    if (is_check_) {
+        for (const std::size_t k :
+             occlusion.over(static_cast<std::size_t>(chosen - tracks.data()))) {
+            over_.push_back({tracks[k].silhouette(), tracks[k].now(t_us)});
+        }
+    }
     gather(t_us, range, chosen->radius_px(), count);
     const std::size_t least = waits ? count : count / 8;
     if (gathered_.size() < (is_check_ ? wanted_events(*chosen, 0.2) : least)) {
@@ -248,12 +255,20 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
         }
         fired_us_[at] = event.t_us;
         looked_at_.push_back(at);
-        if (is_supported && is_in_reach(event)) gathered_.push_back(event);
+        if (!is_supported || !is_in_reach(event) || is_of_cover(event)) return;
+        gathered_.push_back(event);
     });
     for (const std::size_t pixel : looked_at_) fired_us_[pixel] = never_us;
     if (gathered_.size() > count) {
         gathered_.erase(gathered_.begin(), gathered_.end() - static_cast<std::ptrdiff_t>(count));
     }
+}
+
+bool Seeker::is_of_cover(const Event& event) const {
+    return std::any_of(over_.begin(), over_.end(), [&](const Over& over) {
+        return over.silhouette.depth_px(Eigen::Vector2d(event.x, event.y),
+                                        over.now.at(event.t_us, 1).pose) > -Occlusion::band_px;
+    });
 }
 
 double Seeker::mean_age_us(std::int64_t t_us) const {

@@ -11,6 +11,7 @@
 #include "services/tracker/core/chase.hpp"
 #include "services/tracker/core/fired_map.hpp"
 #include "services/tracker/core/last_events.hpp"
+#include "services/tracker/core/occlusion.hpp"
 #include "services/tracker/core/shape_search.hpp"
 #include "services/tracker/core/track.hpp"
 
@@ -32,8 +33,8 @@ class Seeker {
     }
 
     /// Before the first event at or after next_us() is given to a track.
-    void work(std::int64_t t_us, std::span<Track> tracks) {
-        if (t_us >= due_us_) go_on(t_us, tracks);
+    void work(std::int64_t t_us, std::span<Track> tracks, const Occlusion& occlusion) {
+        if (t_us >= due_us_) go_on(t_us, tracks, occlusion);
     }
     [[nodiscard]] std::int64_t next_us() const { return due_us_; }
 
@@ -53,13 +54,15 @@ class Seeker {
     static constexpr std::array looks_of_check{Look{1, 150'000, 5'000}, Look{0.3, 150'000, 5'000},
                                                Look{3, 150'000, 5'000}};
 
-    void go_on(std::int64_t t_us, std::span<Track> tracks);
-    void begin(std::int64_t t_us, std::span<Track> tracks);
+    void go_on(std::int64_t t_us, std::span<Track> tracks, const Occlusion& occlusion);
+    void begin(std::int64_t t_us, std::span<Track> tracks, const Occlusion& occlusion);
     void forget_search();
     void end(std::int64_t t_us, Track& track);
     void go_on_chasing(std::int64_t t_us, Track& track);
     void find_nearby(std::int64_t t_us, Track& track);
     void end_check(std::int64_t t_us, Track& track);
+    /// Whether it came from what lies over the object, where that was then.
+    [[nodiscard]] bool is_of_cover(const Event& event) const;
     /// Looks again near a pose, in the newest events.
     void look_again(std::int64_t t_us, const Track& track, SearchRange again);
     void lead_on(std::int64_t t_us, const Coast& going);
@@ -68,12 +71,19 @@ class Seeker {
     void gather(std::int64_t t_us, const SearchRange& range, double radius_px, std::size_t count);
     [[nodiscard]] static std::size_t wanted_events(const Track& track, double times);
 
+    /// What lies over the object that is checked: whatever comes from there is not of the object.
+    struct Over {
+        Silhouette silhouette;
+        Coast now;
+    };
+
     Geometry geometry_;
     LastEvents last_;
     Chase chase_;
     bool is_chasing_ = false;  // what the search has found
     std::vector<Event> gathered_;
     std::vector<std::int64_t> fired_us_;  // by pixel looked at, while gathering; never in between
+    std::vector<Over> over_;
     std::vector<std::size_t> looked_at_;  // the pixels
     FiredMap map_;
     ShapeSearch search_;

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
+#include <cmath>
 #include <vector>
 
 #include "services/tracker/core/contour.hpp"
+#include "services/tracker/core/pose.hpp"
 
 namespace pursuit::tracker {
 
@@ -26,6 +29,12 @@ class Silhouette {
         return static_cast<double>(
             depth_px_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                       static_cast<std::size_t>(column)]);
+    }
+
+    /// The same of a place of the image, under a pose; image px.
+    [[nodiscard]] double depth_px(const Eigen::Vector2d& p, const Pose& pose) const {
+        const double scale = std::sqrt(std::abs(pose.a.determinant()));
+        return depth_px(pose.a.inverse() * (p - pose.t_px)) * scale;
     }
 
     [[nodiscard]] bool covers_nothing() const { return covers_nothing_; }

@@ -450,10 +450,11 @@ void Track::see(std::int64_t t_us) {
     find_what_to_watch();
     estimator_->set_visible_share(std::max(visible_share_, covered_share));
     estimator_->set_usual_way(hidden_way_.usual());
-    // Held by little of its contour it may have slid along what was seen of it.
+    // Held by little of its contour it may have slid along what was seen of it; unless the events
+    // have fitted ever since.
     if (emerges_ && emerged_us_ < 0 && visible_share_ > checked_share && can_be_hidden()) {
         emerges_ = false;
-        begin_doubt(t_us, start_confirmations, emerged_at_us_);
+        if (doubted_us_ >= emerged_at_us_) begin_doubt(t_us, start_confirmations, emerged_at_us_);
     }
     if (!is_covered_ && can_be_hidden() && visible_share_ < covered_share) cover(t_us);
     if (is_covered_ && visible_share_ > uncovered_share) uncover(t_us);

@@ -29,6 +29,15 @@ TEST(Silhouette, of_a_box_is_as_deep_as_its_nearest_side) {
     EXPECT_EQ(box.depth_px({500, 0}), -Silhouette::reach_px);
 }
 
+TEST(Silhouette, is_as_deep_in_the_image_as_the_pose_makes_it) {
+    const Silhouette box(
+        Contour(test::polygon("box", {{-20, -10}, {20, -10}, {20, 10}, {-20, 10}})));
+    // On its side, and half as large.
+    const Pose pose = pose_of(100, 50, std::numbers::pi / 2, 0.5, 0.5);
+    EXPECT_NEAR(box.depth_px({100, 50 + 8}, pose), 2, 0.6);
+    EXPECT_NEAR(box.depth_px({100 + 8, 50}, pose), -3, 0.6);
+}
+
 TEST(Silhouette, of_a_star_leaves_out_what_lies_between_its_arms) {
     std::vector<Eigen::Vector2d> corners;
     for (int i = 0; i < 10; ++i) {
