@@ -50,6 +50,7 @@ KalmanEstimator<kind>::KalmanEstimator(const Contour& contour, const ObjectParam
       parameters_(parameters),
       bend_(contour_),
       offsets_(contour_, kind),
+      quiet_(contour_),
       watch_(contour_) {
     LeadPhysics::prepare();
     set_parameters(parameters);
@@ -75,6 +76,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     contrast_.restart(contour_.pieces().pieces().size());
     bend_.restart();
     offsets_.restart();
+    quiet_.restart();
     noise_.restart();
     most_pose_sigma_px_ = most_pose_sigma_px;
     residual_px_ = 0.5;
@@ -245,6 +247,7 @@ void KalmanEstimator<kind>::spread(double dt_s) {
             filter_.add_variance(Filter::dof + i, f * own_px_s * own_px_s * unit2(i));
         }
     }
+    if (quiet_.wait(dt_s)) quiet_.look(filter_, size_.per_gyration2, visible_share_ > 0.95);
     const double speed_sigma = std::max(told_px_s, std::min(own_px_s, 3 * told_px_s)) + 30;
     for (int i = 0; i < Filter::dof; ++i) {
         filter_.limit_variance(i, most_pose_sigma_px_ * most_pose_sigma_px_ * unit2(i));
@@ -432,6 +435,7 @@ bool KalmanEstimator<kind>::take(double weight) {
 template <TransformKind kind>
 [[gnu::always_inline]] inline void KalmanEstimator<kind>::learn(double r_px, double share) {
     clock_.count(share);
+    quiet_.hear(near_.piece, share);
     noise_.learn(r_px, measured_.told, share);
     residual_px_ += 0.01 * share * (std::abs(r_px) - residual_px_);
     if (learns_offsets_ && measured_.has_side) offsets_.learn(near_.piece, r_px, share);

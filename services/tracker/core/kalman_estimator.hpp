@@ -12,6 +12,7 @@
 #include "services/tracker/core/lead_prior.hpp"
 #include "services/tracker/core/measurement_noise.hpp"
 #include "services/tracker/core/noise_watch.hpp"
+#include "services/tracker/core/quiet_facings.hpp"
 #include "services/tracker/core/twist_filter.hpp"
 
 namespace pursuit::tracker {
@@ -136,6 +137,7 @@ class KalmanEstimator : public Estimator {
     MeasurementNoise noise_;
     Bend bend_;
     ContourOffsets offsets_;
+    QuietFacings<kind> quiet_;
     NoiseWatch watch_;
     Measurement measured_{};
     Approach near_;

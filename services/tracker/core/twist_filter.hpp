@@ -89,6 +89,16 @@ class TwistFilter {
         return row;
     }
 
+    /// The same of a measurement j·twist.
+    [[nodiscard]] Row speed_row(const Step& j) const {
+        Row row;
+        row.p_h.template head<dof>() = covariance_.template block<dof, dof>(dof, 0).transpose() * j;
+        row.p_h.template segment<dof>(dof) = twist_covariance() * j;
+        row.p_h.template tail<leads>() = covariance_.template block<leads, dof>(2 * dof, dof) * j;
+        row.h_p_h = row.p_h.template segment<dof>(dof).dot(j);
+        return row;
+    }
+
     /// Corrects by the residual r. `per_variance`: a weight 0 … 1 over the total variance; the
     /// weight scales gain and reduction: the measurement is one of this state with that
     /// probability. `reduced`: the part of the reduction that remains. Where many are none, that
