@@ -98,6 +98,7 @@ void KalmanEstimator<kind>::begin_anew() {
     set_speed(0);
     unspread_s_ = 0;
     spread_after_s_ = 0;
+    steadiness_.restart();
     find_silent_way();
 }
 
@@ -142,6 +143,7 @@ void KalmanEstimator<kind>::resume(std::int64_t t_us, const Pose& pose, const Ve
     t_us_ = t_us;
     unspread_s_ = 0;
     spread_after_s_ = 0;
+    steadiness_.restart();
 }
 
 template <TransformKind kind>
@@ -229,6 +231,9 @@ void KalmanEstimator<kind>::spread(double dt_s) {
     if constexpr (kind == TransformKind::similarity) noise(3) *= 0.2 * 0.2;
     if constexpr (kind == TransformKind::paper_affine) noise.template tail<2>() *= 0.7 * 0.7;
     if constexpr (kind == TransformKind::full_affine) noise.template tail<4>() *= 0.7 * 0.7;
+    steadiness_.go(speed_px_s_ * dt_s, M::omega(filter_.twist()) * dt_s, filter_.twist(),
+                   noise * dt_s);
+    noise = noise.cwiseProduct(steadiness_.share());
     if constexpr (is_bent) bend_.predict(speed_px_s_ * dt_s);
     if (visible_share_ < UsualWay::least_seen_share && usual_way_.is_known()) {
         go_as_usual(dt_s, noise);
@@ -258,6 +263,7 @@ void KalmanEstimator<kind>::spread(double dt_s) {
     for (int i = 0; i < Filter::leads; ++i) {
         filter_.add_variance(2 * Filter::dof + i, lead_drift_px2_s * dt_s);
     }
+    steadiness_.begin(filter_.twist());
     // Of a way, or of what the way is uncertain by: at a start nobody knows the speed.
     const double may_go_px_s = std::sqrt(
         speed_px_s_ * speed_px_s_ + filter_.speed_variance(size_.gyration_px * size_.gyration_px));
@@ -295,6 +301,7 @@ void KalmanEstimator<kind>::look_out(std::int64_t t_us) {
                     step_of(sighted_speed_sigma_px_s, sighted_speed_sigma_px_s * per_px));
     unspread_s_ = 0;
     spread_after_s_ = 0;
+    steadiness_.restart();
     // It did not go this way event by event.
     clock_.begin_way();
     way_begin_ = to->pose;

@@ -13,14 +13,16 @@
 #include "services/tracker/core/measurement_noise.hpp"
 #include "services/tracker/core/noise_watch.hpp"
 #include "services/tracker/core/quiet_facings.hpp"
+#include "services/tracker/core/steadiness.hpp"
 #include "services/tracker/core/twist_filter.hpp"
 
 namespace pursuit::tracker {
 
 /// The filter: measures the signed distance of each event along the contour's normal, less the lead
 /// that events have on a moving edge (LeadPrior, Backlash). How fast the object can turn away is
-/// told by the event clock, how much of what comes is the object's by the measured clutter. What a
-/// full affine transform leaves of a perspective view, a Bend explains.
+/// told by the event clock and by how steadily it goes (Steadiness), how much of what comes is the
+/// object's by the measured clutter. What a full affine transform leaves of a perspective view, a
+/// Bend explains.
 template <TransformKind kind>
 class KalmanEstimator : public Estimator {
  public:
@@ -128,6 +130,7 @@ class KalmanEstimator : public Estimator {
     Contour contour_;
     ObjectParameters parameters_;
     Filter filter_;
+    Steadiness<M::dof> steadiness_;
     Size size_;
     EventClock clock_;
     Clutter clutter_;
