@@ -66,6 +66,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     measure_size();
     filter_.restart_leads(LeadPrior::mean_px(), LeadPrior::covariance_px2());
     lead_prior_.restart();
+    trail_.restart();
     clock_.restart();
     clutter_.restart();
     watch_.restart(pose, velocity);
@@ -107,6 +108,7 @@ void KalmanEstimator<kind>::set_speed(double speed_px_s) {
     speed_px_s_ = speed_px_s;
     same_edge_us_ = 1e6 * same_edge_px / std::max(speed_px_s, 1e-3);
     contrast_.set_speed(speed_px_s);
+    trail_.set_speed(speed_px_s);
     offsets_.set_speed(speed_px_s);
 }
 
@@ -378,14 +380,26 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     }
     const bool subsequent = static_cast<double>(since_us) < same_edge_us_;
     const int lead = 2 * polarity + (subsequent ? 1 : 0);
-    const double r_px = place.r_px - lead_px(place.piece, lead) * h - offsets_.of(place.piece);
+    const Step j = M::along(place.n, place.arm_px, pose.a, place.model_px);
+    double ahead_px = 0;
+    bool is_late = false;
+    // Where it goes on as it went, its velocity says how far since the pixel fired.
+    measured_.has_way = measured_.settled_side != 0 && std::abs(h) > 0.9;
+    if (measured_.has_way) {
+        const auto ago_us = static_cast<double>(std::min(past.since_same_us, past.since_other_us));
+        measured_.way_px = 1e-6 * ago_us * std::abs(j.dot(filter_.twist()));
+        ahead_px = trail_.ahead(lead, measured_.way_px);
+        is_late = Trail::is_late(lead, measured_.way_px);
+    }
+    measured_.gone = h;
+    const double r_px =
+        place.r_px - (lead_px(place.piece, lead) + ahead_px) * h - offsets_.of(place.piece);
     const double distance_px = std::abs(r_px);
     if (distance_px > Clutter::far_from_px && distance_px < Clutter::far_to_px) {
         clutter_.count_far(place.piece, r_px);
     }
     if (distance_px > parameters_.gate_px) return nullptr;
     clutter_.pass_near();
-    const Step j = M::along(place.n, place.arm_px, pose.a, place.model_px);
     measured_.row = filter_.row(j, lead, h);
     if constexpr (is_bent) {
         measured_.along_bend = bend_.along(pose.a.transpose() * place.n, place.model_px);
@@ -393,7 +407,7 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     measured_.r_px = r_px;
     measured_.has_side = segment.per_length2 > 0;
     measured_.lead = lead;
-    measured_.told = noise_.at(r_px, measured_.row.h_p_h, subsequent);
+    measured_.told = noise_.at(r_px, measured_.row.h_p_h, subsequent || is_late);
     near_ = {r_px * r_px, clutter_.density(place.piece, r_px), r_px * r_px, place.piece};
     return &near_;
 }
@@ -450,6 +464,9 @@ template <TransformKind kind>
         edge_polarity_.learn(near_.piece, measured_.lead / 2, measured_.settled_side, share);
     }
     contrast_.count(near_.piece, measured_.lead / 2, measured_.lead % 2 == 1, share);
+    if (measured_.has_way) {
+        trail_.learn(measured_.lead, measured_.way_px, r_px * measured_.gone, share);
+    }
     if (lead_prior_.count(measured_.lead, share)) tell_leads();
 }
 

@@ -14,15 +14,16 @@
 #include "services/tracker/core/noise_watch.hpp"
 #include "services/tracker/core/quiet_facings.hpp"
 #include "services/tracker/core/steadiness.hpp"
+#include "services/tracker/core/trail.hpp"
 #include "services/tracker/core/twist_filter.hpp"
 
 namespace pursuit::tracker {
 
 /// The filter: measures the signed distance of each event along the contour's normal, less the lead
-/// that events have on a moving edge (LeadPrior, Backlash). How fast the object can turn away is
-/// told by the event clock and by how steadily it goes (Steadiness), how much of what comes is the
-/// object's by the measured clutter. What a full affine transform leaves of a perspective view, a
-/// Bend explains.
+/// that events have on a moving edge (LeadPrior, Backlash, Trail). How fast the object can turn
+/// away is told by the event clock and by how steadily it goes (Steadiness), how much of what comes
+/// is the object's by the measured clutter. What a full affine transform leaves of a perspective
+/// view, a Bend explains.
 template <TransformKind kind>
 class KalmanEstimator : public Estimator {
  public:
@@ -114,6 +115,9 @@ class KalmanEstimator : public Estimator {
         double settled_side = 0;  ///< The way its piece goes, ±1; 0 where that is not settled.
         MeasurementNoise::Told told;
         Eigen::Vector2d along_bend;
+        double gone = 0;       ///< The way its piece goes, as its lead has it.
+        double way_px = 0;     ///< That its edge has gone since its pixel fired, …
+        bool has_way = false;  ///< … where that is known.
         bool has_side = false;
     };
 
@@ -137,6 +141,7 @@ class KalmanEstimator : public Estimator {
     Backlash backlash_;
     EdgePolarity edge_polarity_;
     EdgeContrast contrast_;
+    Trail trail_;
     MeasurementNoise noise_;
     Bend bend_;
     ContourOffsets offsets_;

@@ -10,17 +10,17 @@ namespace pursuit::tracker {
 namespace {
 
 using Steady = Steadiness<3>;
-constexpr double way_px = 0.05;
-constexpr double usual_variance = 4;
+constexpr double step_px = 0.05;
+constexpr double usual_change = 4;
 
 /// So far it goes, its twist corrected at every step by this σ at random, in units of the usual.
 void wander(Steady& steadiness, double px, double of_usual, Steady::Step& twist) {
     std::mt19937 random(5);
-    std::normal_distribution<double> normal(0, of_usual * std::sqrt(usual_variance));
-    for (double gone_px = 0; gone_px < px; gone_px += way_px) {
+    std::normal_distribution<double> normal(0, of_usual * std::sqrt(usual_change));
+    for (double gone_px = 0; gone_px < px; gone_px += step_px) {
         steadiness.begin(twist);
         for (int i = 0; i < 3; ++i) twist(i) += normal(random);
-        steadiness.go(way_px, 0, twist, Steady::Step::Constant(usual_variance));
+        steadiness.go(step_px, 0, twist, Steady::Step::Constant(usual_change));
     }
 }
 
@@ -52,7 +52,7 @@ TEST(Steadiness, a_turn_is_expected_again_within_part_of_a_pixel) {
     for (int i = 0; i < 10; ++i) {
         steadiness.begin(twist);
         twist(0) -= 10;
-        steadiness.go(way_px, 0, twist, Steady::Step::Constant(usual_variance));
+        steadiness.go(step_px, 0, twist, Steady::Step::Constant(usual_change));
     }
     EXPECT_GT(steadiness.share()(0), 0.9);
     EXPECT_LE(steadiness.share()(2), before(2)) << "it has not turned about itself";
@@ -67,7 +67,7 @@ TEST(Steadiness, a_velocity_that_turns_with_the_object_is_steady) {
         const double vx = twist(0);
         twist(0) -= angle_rad * (twist(1) + angle_rad / 2 * vx);
         twist(1) += angle_rad * (vx - angle_rad / 2 * twist(1));
-        steadiness.go(way_px, angle_rad, twist, Steady::Step::Constant(usual_variance));
+        steadiness.go(step_px, angle_rad, twist, Steady::Step::Constant(usual_change));
     }
     EXPECT_LT(steadiness.share().maxCoeff(), 0.1);
 }
