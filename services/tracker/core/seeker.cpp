@@ -16,9 +16,10 @@ constexpr std::int64_t never_us = std::int64_t{-1} << 40;
 // How often it is asked who wants to be looked for.
 constexpr std::int64_t idle_us = 2'000;
 
-// After a search that found nothing: the more are made of a shape that is not there, the sooner
-// one finds it in something else.
-constexpr std::int64_t rest_us = 25'000;
+// A rest after a search that found nothing, longer from one to the next: the more are made of a
+// shape that is not there, the sooner one finds it in something else.
+constexpr std::int64_t rest_us = 10'000;
+constexpr std::int64_t longest_rest_us = 50'000;
 
 // Poses looked at for each µs of event time, and for an event at most.
 constexpr std::int64_t poses_per_us = 40;
@@ -45,6 +46,7 @@ void Seeker::restart(Geometry geometry) {
     attempt_ = 0;
     began_us_ = -1;
     has_looked_ = false;
+    in_vain_ = 0;
     due_us_ = 0;
 }
 
@@ -152,9 +154,10 @@ void Seeker::end(std::int64_t t_us, Track& track) {
     }
     if (!search_.found()) {
         forget_search();
-        due_us_ = t_us + rest_us;
+        due_us_ = t_us + std::min(++in_vain_ * rest_us, longest_rest_us);
         return;
     }
+    in_vain_ = 0;
     if (!chase_.is_complete()) {
         forget_search();
         find_nearby(t_us, track);

@@ -96,6 +96,7 @@ class Seeker {
     std::uint32_t attempt_ = 0;
     std::int64_t began_us_ = -1;  // the stream
     bool has_looked_ = false;     // since then
+    std::int64_t in_vain_ = 0;    // searches since one found something
     std::int64_t due_us_ = 0;
     std::int64_t worked_us_ = 0;
 };

@@ -195,7 +195,7 @@ void Track::weigh(std::int64_t t_us) {
 void Track::acquire(std::int64_t t_us) {
     // What was found a moment after all of it had changed has yet to show that it is there.
     if (!vanishing_.is_suspected()) vanishing_.restart();
-    const bool was_adrift = is_adrift_;
+    const bool was_anywhere = is_adrift_ || is_searching_;
     is_acquiring_ = false;
     is_searching_ = false;
     is_adrift_ = false;
@@ -207,7 +207,7 @@ void Track::acquire(std::int64_t t_us) {
     good_.set({t_us, acquisition_->pose(), acquisition_->velocity()});
     silence_.hear(t_us);
     begin_doubt(t_us, found_confirmations, t_us);
-    if (was_adrift) doubt_.leave_angle_open();
+    if (was_anywhere) doubt_.leave_angle_open();
 }
 
 Pose Track::coasted(std::int64_t t_us) const {
