@@ -77,16 +77,22 @@ TEST(Life, lets_go_within_100_ms_of_an_object_that_is_replaced) {
     Tracker tracker = that_follows_an_arrow(swinging(0));
     Poses poses;
     tracker.process(events, poses);
+    // What it finds in the other's lines meanwhile it tries, and never believes.
+    int tried_ms = 0;
     for (const auto& row : poses.rows) {
         if (row.record.t_us < 200'000) continue;
         if (row.record.t_us < 800'000) {
             ASSERT_EQ(row.record.state, TrackState::tracking) << row.record.t_us;
-        } else if (row.record.t_us > 900'000 && row.record.t_us < 1'000'000) {
+        } else if (row.record.t_us > 900'000) {
             ASSERT_FALSE(row.record.state == TrackState::tracking && row.record.confidence > 0.5F)
                 << row.record.t_us << ' ' << row.record.confidence;
+            if (row.record.t_us < 1'000'000) {
+                ASSERT_EQ(row.record.state, TrackState::lost);
+            }
+            if (row.record.state != TrackState::lost) ++tried_ms;
         }
     }
-    EXPECT_EQ(last(poses).state, TrackState::lost);
+    EXPECT_LT(tried_ms, 160);  // of 1600
 }
 
 /// Every place that the arrow covers fires, within a ms from t_us.
