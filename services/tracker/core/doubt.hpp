@@ -37,6 +37,15 @@ class Doubt {
         before_ = before;
     }
 
+    /// To be called when it begins because the object was moved to what it found. Each time more is
+    /// wanted of the next: where a model fits in part only, several places are as good as each
+    /// other, and the object would be moved to and fro between them.
+    void begin_again(std::int64_t t_us, int confirmations) {
+        const int moves = moves_ + 1;
+        begin(t_us, confirmations, since_us_);
+        moves_ = moves;
+    }
+
     /// Nothing is known of how the object lies.
     void leave_angle_open() { is_angle_open_ = true; }
     [[nodiscard]] bool is_angle_open() const { return is_angle_open_; }
@@ -72,8 +81,9 @@ class Doubt {
             for_move_ = std::min(finding.gain, usual_gain);
         }
         off_px_ = finding.off_px;
-        if (finding.is_sure && !finding.is_here) return finding.gain > usual_gain;
-        if (for_move_ > enough) return true;
+        const int times = 1 + moves_;
+        if (finding.is_sure && !finding.is_here) return finding.gain > usual_gain * times;
+        if (for_move_ > enough * times) return true;
         if ((finding.is_here && finding.is_sure) || for_move_ < -enough) {
             --wanted_;
             for_move_ = 0;
@@ -93,6 +103,7 @@ class Doubt {
     static constexpr double same_off_px = 3;
 
     bool is_angle_open_ = false;
+    int moves_ = 0;
     int wanted_ = 0;
     int tries_ = 0;
     std::int64_t since_us_ = 0;

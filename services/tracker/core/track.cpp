@@ -281,7 +281,7 @@ void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocit
     good_.set({t_us, moved, velocity});
     vanishing_.restart();
     // What came before the move is of the same object.
-    begin_doubt(t_us, found_confirmations, doubt_.since_us());
+    if (tracker_.checks_pose >= 0.5) doubt_.begin_again(t_us, found_confirmations);
 }
 
 void Track::begin_doubt(std::int64_t t_us, int confirmations, std::int64_t since_us,

@@ -70,6 +70,24 @@ TEST(Doubt, moves_the_object_for_one_sure_finding_that_fits_better) {
     EXPECT_TRUE(doubt.take(20'000, elsewhere(true, 0.3)));
 }
 
+TEST(Doubt, wants_more_of_a_finding_each_time_that_it_has_moved_the_object) {
+    const auto moves = [](Doubt& doubt, double gain) {
+        return doubt.take(10'000, {false, true, true, gain, {20, 0}});
+    };
+    Doubt doubt;
+    doubt.begin(0, 3, 0);
+    EXPECT_TRUE(moves(doubt, 0.15));
+    doubt.begin_again(0, 3);
+    EXPECT_FALSE(moves(doubt, 0.15));
+    EXPECT_TRUE(moves(doubt, 0.25));
+    doubt.begin_again(0, 3);
+    EXPECT_FALSE(moves(doubt, 0.25));
+    EXPECT_TRUE(moves(doubt, 0.35));
+    // Another doubt has no such past.
+    doubt.begin(0, 3, 0);
+    EXPECT_TRUE(moves(doubt, 0.15));
+}
+
 TEST(Doubt, moves_the_object_for_unsure_findings_that_agree_and_not_for_those_that_do_not) {
     Doubt agreed;
     agreed.begin(0, 3, 0);
