@@ -18,6 +18,11 @@ constexpr double least_lead_px = -1.2;
 constexpr double most_lead_px = 1.6;
 constexpr double lead_drift_px2_s = 1e-3;
 
+// What the events of one passage over the pixels have in common (their grid, their thresholds, how
+// early they come): so far off the pose is however steadily it goes. Of the discs' scenes, seeds 21
+// to 26, told covariance and error agree with it in the mean.
+constexpr double common_sigma_px = 0.03;
+
 // Of the motion.
 constexpr double kappa = 0.15;     // px^-1/2
 constexpr double still_px_s = 10;  // v0
@@ -484,7 +489,9 @@ void KalmanEstimator<kind>::describe(std::int64_t t_us, PoseRecord& record) cons
     }
     record.velocity = M::velocity(twist, record.pose.a);
     const double since_s = t_us_ < 0 ? 0 : static_cast<double>(t_us - t_us_) * 1e-6 + unspread_s_;
-    tell_covariance<kind>(filter_, since_s, record);
+    constexpr double common_px2 = common_sigma_px * common_sigma_px;
+    tell_covariance<kind>(filter_, since_s, step_of(common_px2, common_px2 * size_.per_gyration2),
+                          record);
     record.mean_residual_px = static_cast<float>(residual_px_);
 }
 

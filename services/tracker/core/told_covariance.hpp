@@ -10,16 +10,20 @@
 namespace pursuit::tracker {
 
 /// Fills in how well the record's pose and velocity are known, dt_s after the filter was told last:
-/// as far as its state is known, and how far it can have gone since. The record's pose must be set.
+/// as far as its state is known, and how far it can have gone since; and by `common`, the variance
+/// that all events have in common, a component each: no number of them takes it away. The record's
+/// pose must be set.
 template <TransformKind kind>
-void tell_covariance(const TwistFilter<kind>& filter, double dt_s, PoseRecord& record) {
+void tell_covariance(const TwistFilter<kind>& filter, double dt_s,
+                     const typename TwistFilter<kind>::Step& common, PoseRecord& record) {
     constexpr int dof = TwistFilter<kind>::dof;
     using Square = Eigen::Matrix<double, dof, dof>;
     const typename TwistFilter<kind>::Covariance p = filter.covariance();
     const Square pv = p.template block<dof, dof>(0, dof);
     const Square vv = p.template block<dof, dof>(dof, dof);
-    const Square pose =
+    Square pose =
         p.template topLeftCorner<dof, dof>() + dt_s * (pv + pv.transpose()) + dt_s * dt_s * vv;
+    pose.diagonal() += common;
     const auto j = Motion<kind>::readable(record.pose.a);
     const auto fill = [](const Eigen::Matrix<double, 6, 6>& read, int size, auto& upper_rows) {
         std::size_t i = 0;
