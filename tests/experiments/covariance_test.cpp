@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether the covariance that comes with a pose is as large as the pose's error: the normalised
-// error squared, whose mean is the number of the components where it is. Nothing was tuned for it.
+// error squared, whose mean is the number of the components where it is. What the filter adds to it
+// for all that events have in common was tuned on eight scenes of discs, this one among them, with
+// other seeds.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -114,9 +116,9 @@ TEST(Covariance, of_the_pose_is_as_large_as_its_errors_and_that_of_the_velocity_
     std::printf("normalised error squared of 3: pose %.2f, velocity %.2f\n", mean.pose,
                 mean.velocity);
     // Of 8 seeds with 15 poses each, were all of them independent, 95 % of the means would lie
-    // within 2.6 and 3.5; each seed's own sensor adds to that.
-    EXPECT_GT(mean.pose, 2.0);
-    EXPECT_LT(mean.pose, 4.5);
+    // within 2.6 and 3.5.
+    EXPECT_GT(mean.pose, 2.6);
+    EXPECT_LT(mean.pose, 3.5);
     // The filter is ready for a turn that this object never takes.
     EXPECT_LT(mean.velocity, 3.0);
     EXPECT_GT(mean.velocity, 0.1);

@@ -254,10 +254,10 @@ void Track::chase(const Event& event) {
 }
 
 bool Track::end_chase(std::int64_t t_us) {
+    stir();  // it takes events again
     is_chased_ = false;
     const bool is_here = acquisition_->is_done();
     if (is_here) {
-        stir();
         is_acquiring_ = true;
         trial_until_us_ = t_us + trial_us;
         acquisition_began_us_ = t_us;
