@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <set>
 
 #include "services/common/topics.hpp"
 
@@ -12,6 +14,9 @@ namespace pursuit {
 /// A generated type support that survives what comes from the network. The generated code lets
 /// exceptions of a malformed sample escape into the middleware's receiving thread, which ends the
 /// process; here such a sample is refused and counted. Threads: as the generated type.
+///
+/// A sample of a keyed topic is deserialized twice: by the middleware, which looks for its key in
+/// an object of its own (made by createData()), and by who takes it. Only the second is counted.
 template <class T>
 class GuardedType : public Wire<T>::Support {
  public:
@@ -33,11 +38,32 @@ class GuardedType : public Wire<T>::Support {
                 good = false;
             }
         }
-        if (!good) malformed_->fetch_add(1, std::memory_order_relaxed);
+        if (!good && !is_own(data)) malformed_->fetch_add(1, std::memory_order_relaxed);
         return good;
     }
 
+    void* createData() override {
+        void* data = Wire<T>::Support::createData();
+        const std::scoped_lock lock(mutex_);
+        own_.insert(data);
+        return data;
+    }
+    void deleteData(void* data) override {
+        {
+            const std::scoped_lock lock(mutex_);
+            own_.erase(data);
+        }
+        Wire<T>::Support::deleteData(data);
+    }
+
  private:
+    bool is_own(void* data) const {
+        const std::scoped_lock lock(mutex_);
+        return own_.contains(data);
+    }
+
+    mutable std::mutex mutex_;
+    std::set<void*> own_;
     std::shared_ptr<std::atomic<std::uint64_t>> malformed_;
 };
 

@@ -11,6 +11,7 @@
 #include "services/common/request_client.hpp"
 #include "services/common/request_server.hpp"
 #include "tests/system/free_domain.hpp"
+#include "tests/system/real_traffic.hpp"
 
 namespace pursuit {
 namespace {
@@ -27,6 +28,7 @@ bool eventually(const std::function<bool()>& condition) {
 
 class Dds : public ::testing::Test {
  protected:
+    static void SetUpTestSuite() { testing::deliver_over_sockets(); }
     static std::unique_ptr<Participant> join(const disk::Dds& settings, const char* sensor = "") {
         auto made = Participant::create(settings, "test", sensor);
         EXPECT_TRUE(made) << made.error().message;
