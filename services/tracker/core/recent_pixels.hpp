@@ -17,7 +17,7 @@ class RecentPixels {
  public:
     void restart(Geometry geometry) {
         width_ = geometry.width;
-        last_us_.assign(std::size_t{2} * geometry.width * geometry.height, -PixelPast::never_us);
+        last_us_.restart(std::size_t{2} * geometry.width * geometry.height);
         refractory_.restart();
     }
 
@@ -33,9 +33,10 @@ class RecentPixels {
         const std::size_t pixel = 2 * (std::size_t{event.y} * width_ + event.x);
         const std::size_t polarity = event.polarity & 1U;
         std::int64_t& last_us = last_us_[pixel + polarity];
-        const PixelPast past{event.t_us - last_us, event.t_us - last_us_[pixel + (polarity ^ 1U)]};
+        const std::int64_t now_us = event.t_us + PixelPast::never_us;
+        const PixelPast past{now_us - last_us, now_us - last_us_[pixel + (polarity ^ 1U)]};
         refractory_.see(std::min(past.since_same_us, past.since_other_us));
-        last_us = event.t_us;
+        last_us = now_us;
         return past;
     }
 
@@ -46,7 +47,7 @@ class RecentPixels {
         const auto y = static_cast<std::size_t>(p_px.y() + 0.5);
         const std::size_t at = 2 * (y * width_ + x);
         if (x >= width_ || at >= last_us_.size()) return false;
-        const std::int64_t last_us = std::max(last_us_[at], last_us_[at + 1]);
+        const std::int64_t last_us = std::max(last_us_[at], last_us_[at + 1]) - PixelPast::never_us;
         return t_us - static_cast<double>(last_us) < blind_us();
     }
 
@@ -55,6 +56,7 @@ class RecentPixels {
 
  private:
     std::size_t width_ = 0;
+    /// Counted from never_us before the stream's time 0: a pixel that has not fired has a zero.
     LargeTable<std::int64_t> last_us_;
     Refractory refractory_;
 };

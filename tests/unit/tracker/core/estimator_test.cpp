@@ -3,7 +3,6 @@
 
 #include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/event_clock.hpp"
-#include "services/tracker/core/recent_pixels.hpp"
 #include "services/tracker/core/slope.hpp"
 #include "services/tracker/core/tracker.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
@@ -164,17 +163,6 @@ TEST(EventClock, learns_the_density_only_from_ways_that_were_gone) {
     clock.wait(0.31);
     EXPECT_TRUE(clock.end_way(1, 50));
     EXPECT_NEAR(clock.density(), 2 * std::pow(2, 0.3), 1e-12);
-}
-
-TEST(RecentPixels, keep_pixels_and_polarities_apart) {
-    RecentPixels recent;
-    recent.restart({4, 3});
-    EXPECT_GT(recent.note({100, 3, 2, 1}).since_same_us, 1'000'000'000);
-    EXPECT_GT(recent.note({110, 3, 2, 0}).since_same_us, 1'000'000'000);
-    EXPECT_GT(recent.note({120, 2, 2, 1}).since_other_us, 1'000'000'000);
-    const PixelPast past = recent.note({150, 3, 2, 1});
-    EXPECT_EQ(past.since_same_us, 50);
-    EXPECT_EQ(past.since_other_us, 40);
 }
 
 TEST(Slope, of_a_straight_line_is_exact_whatever_the_spacing) {
