@@ -162,22 +162,17 @@ void CoarseSearch::look_at(const Turn& turn, const Spot& spot) {
 }
 
 void CoarseSearch::keep(const Candidate& candidate) {
-    for (Candidate& other : best_) {
+    const auto is_same = [&](const Candidate& other) {
         const double turned = std::remainder(
             turns_[other.turn].angle_rad - turns_[candidate.turn].angle_rad, 2 * std::numbers::pi);
-        const bool is_same = std::abs(other.column - candidate.column) <= same_cells &&
-                             std::abs(other.row - candidate.row) <= same_cells &&
-                             std::abs(turned) < same_rad;
-        if (!is_same) continue;
-        if (other.z >= candidate.z) return;
-        other = candidate;
-        std::stable_sort(best_.begin(), best_.end(),
-                         [](const auto& l, const auto& r) { return l.z > r.z; });
-        return;
-    }
-    const auto place = std::find_if(best_.begin(), best_.end(),
-                                    [&](const Candidate& other) { return other.z < candidate.z; });
-    best_.insert(place, candidate);
+        return std::abs(other.column - candidate.column) <= same_cells &&
+               std::abs(other.row - candidate.row) <= same_cells && std::abs(turned) < same_rad;
+    };
+    const auto is_less = [&](const Candidate& other) { return other.z < candidate.z; };
+    const auto place = std::find_if(best_.begin(), best_.end(), is_less);
+    if (std::any_of(best_.begin(), place, is_same)) return;
+    best_.erase(std::remove_if(best_.insert(place, candidate) + 1, best_.end(), is_same),
+                best_.end());
     if (best_.size() > kept) best_.pop_back();
 }
 
