@@ -2,11 +2,14 @@
 #include "services/tracker/core/acquisition.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pursuit::tracker {
 namespace {
 
 constexpr double narrowest_gate_px = 4;
+// Events come late by up to so much, and at a speed that is a distance.
+constexpr double late_s = 150e-6;
 constexpr double gate_per_residual = 3;
 
 // Coarser than for tracking: what counts is to arrive.
@@ -27,6 +30,7 @@ Acquisition::Acquisition(TransformKind transform, const Contour& contour,
                          const ObjectParameters& parameters)
     : parameters_(arriving(parameters)),
       estimator_(make_gradient(transform, contour, parameters_, Pull::contour)),
+      gyration_px_(contour.gyration_px()),
       outline_(contour),
       cover_(contour) {}
 
@@ -35,6 +39,7 @@ void Acquisition::begin(const Pose& pose, double gate_px) {
     health_.restart();
     cover_.restart();
     residual_px_ = gate_px / gate_per_residual;
+    narrow_px_ = narrowest_gate_px;
     set_gate(gate_px);
 }
 
@@ -54,14 +59,21 @@ const Approach* Acquisition::approach(const Event& event) {
 
 void Acquisition::take() {
     estimator_->take(1);
-    if (distance_px_ < narrowest_gate_px) {
-        const bool is_sharp = distance_px_ < narrowest_gate_px / 4;
+    if (distance_px_ < narrow_px_) {
+        const bool is_sharp = distance_px_ < narrow_px_ / 4;
         health_.count(is_sharp ? 1 : 0, 1, t_us_);
         if (is_sharp) cover_.count(piece_);
-        if (cover_.is_due()) cover_.close_window(outline_, estimator_->pose(), velocity());
+        if (cover_.is_due()) {
+            const Velocity now = velocity();
+            cover_.close_window(outline_, estimator_->pose(), now);
+            narrow_px_ =
+                std::min(narrowest_gate_px + late_s * std::hypot(now.vx_px_s, now.vy_px_s,
+                                                                 now.omega_rad_s * gyration_px_),
+                         widest_gate_px);
+        }
     }
     residual_px_ += 0.01 * (distance_px_ - residual_px_);
-    set_gate(std::clamp(gate_per_residual * residual_px_, narrowest_gate_px, widest_gate_px));
+    set_gate(std::clamp(gate_per_residual * residual_px_, narrow_px_, widest_gate_px));
 }
 
 }  // namespace pursuit::tracker

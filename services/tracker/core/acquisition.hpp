@@ -40,6 +40,7 @@ class Acquisition {
 
     ObjectParameters parameters_;
     std::unique_ptr<Estimator> estimator_;
+    double gyration_px_;
     Outline outline_;
     Cover cover_;
     Health health_;
@@ -47,6 +48,7 @@ class Acquisition {
     std::int64_t t_us_ = 0;
     double distance_px_ = 0;
     double residual_px_ = 0;
+    double narrow_px_ = 0;  // the gate of what has arrived
 };
 
 }  // namespace pursuit::tracker
