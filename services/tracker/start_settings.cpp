@@ -10,6 +10,9 @@
 namespace pursuit::tracker {
 namespace {
 
+// A stream of a larger image waits until memory for it is there, some tens of ms.
+constexpr Geometry usual_geometry{1280, 720};
+
 bool is_of_strategies(const std::string& name) {
     const auto table = strategy_parameter_table();
     return std::any_of(table.begin(), table.end(),
@@ -46,6 +49,7 @@ Result<Tracker> configured_tracker(const disk::TrackerConfig& config,
     options.preset = config.preset();
     options.emit_updates = config.pose_tracks();
     options.next_object_id = next_object_id;
+    options.reserved = usual_geometry;
     auto made = Tracker::create(options);
     if (!made) return fail(made.error().message);
     std::vector<NamedValue> of_strategy;

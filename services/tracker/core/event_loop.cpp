@@ -24,7 +24,9 @@ EventLoop::EventLoop(const TrackerOptions& options, const Preset& preset)
     : emits_updates_(options.emit_updates),
       grid_(options.pose_rate_hz, options.max_poses_per_s),
       arbiter_(options.max_objects, preset.strategy, preset.strategy_parameters),
-      tells_occlusion_(preset.tracker.tells_occlusion >= 0.5) {}
+      tells_occlusion_(preset.tracker.tells_occlusion >= 0.5) {
+    if (!options.only_checks) recent_.reserve(options.reserved);
+}
 
 void EventLoop::begin_stream(Geometry geometry, std::uint64_t stream_id) {
     // Nothing of the former stream comes any more.

@@ -3,6 +3,7 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -12,22 +13,26 @@ namespace pursuit::tracker {
 
 /// A table of many megabytes that is looked into anywhere, all zero to begin with: in huge pages
 /// where the system has them, because the processor remembers the places of some thousand pages
-/// only. Each page is cleared when it is first touched, so that a stream does not wait for all of
-/// them to be cleared at its beginning.
+/// only. It takes the system up to some ms to hand over each of them: those that were reserved are
+/// there before they are needed.
 template <class T>
 class LargeTable {
     static_assert(std::is_trivial_v<T>);
 
  public:
-    /// All zero again, with so many entries. Throws std::bad_alloc.
+    /// Room for so many entries is there from now on. Throws std::bad_alloc, and then it has none.
+    void reserve(std::size_t count) {
+        if (count <= room_) return;
+        map(count);
+        used_ = room_;
+        restart(0);
+    }
+
+    /// All zero again, with so many entries. Throws std::bad_alloc, and then it has none.
     void restart(std::size_t count) {
-        if (count == count_ && memory_ && memory_->forget()) return;
-        memory_.reset();
-        count_ = 0;
-        table_ = nullptr;
-        memory_ = std::make_unique<Memory>(count * sizeof(T));
-        table_ = static_cast<T*>(memory_->begin());
-        count_ = count;
+        if (count > room_) map(count);
+        std::fill_n(table_, used_, T{});
+        used_ = count_ = count;
     }
 
     [[nodiscard]] std::size_t size() const { return count_; }
@@ -54,8 +59,7 @@ class LargeTable {
         Memory& operator=(const Memory&) = delete;
 
         [[nodiscard]] void* begin() const { return begin_; }
-        /// All of it is zero again; false where the system would not.
-        [[nodiscard]] bool forget() { return ::madvise(begin_, bytes_, MADV_DONTNEED) == 0; }
+        [[nodiscard]] std::size_t size() const { return bytes_; }
 
      private:
         std::size_t bytes_;
@@ -64,10 +68,22 @@ class LargeTable {
         void* begin_ = nullptr;
     };
 
+    // All zero, as the system gives it.
+    void map(std::size_t count) {
+        memory_.reset();
+        table_ = nullptr;
+        room_ = used_ = count_ = 0;
+        memory_ = std::make_unique<Memory>(count * sizeof(T));
+        table_ = static_cast<T*>(memory_->begin());
+        room_ = memory_->size() / sizeof(T);
+    }
+
     static constexpr std::size_t page_bytes = std::size_t{1} << 21;
 
     std::unique_ptr<Memory> memory_;
     T* table_ = nullptr;
+    std::size_t room_ = 0;  // entries
+    std::size_t used_ = 0;  // the first of them that may not be zero
     std::size_t count_ = 0;
 };
 

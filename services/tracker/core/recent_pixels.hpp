@@ -15,9 +15,12 @@ namespace pursuit::tracker {
 /// When each pixel last fired, a polarity each.
 class RecentPixels {
  public:
+    /// Memory for an image of this size is there before its stream begins.
+    void reserve(Geometry geometry) { last_us_.reserve(entries(geometry)); }
+
     void restart(Geometry geometry) {
         width_ = geometry.width;
-        last_us_.restart(std::size_t{2} * geometry.width * geometry.height);
+        last_us_.restart(entries(geometry));
         refractory_.restart();
     }
 
@@ -55,6 +58,10 @@ class RecentPixels {
     [[nodiscard]] double blind_us() const { return refractory_.period_us(); }
 
  private:
+    static std::size_t entries(Geometry geometry) {
+        return std::size_t{2} * geometry.width * geometry.height;
+    }
+
     std::size_t width_ = 0;
     /// Counted from never_us before the stream's time 0: a pixel that has not fired has a zero.
     LargeTable<std::int64_t> last_us_;

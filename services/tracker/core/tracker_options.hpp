@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "services/common/event.hpp"
+
 namespace pursuit::tracker {
 
 /// Event times are below it: beyond, microseconds are no longer whole in a double; 285 years.
@@ -18,6 +20,7 @@ struct TrackerOptions {
     bool emit_updates = false;         ///< Hand every step to PoseSink::update().
     std::uint32_t next_object_id = 1;  ///< Ids below it are never chosen (they were used before).
     bool only_checks = false;          ///< Answers calls, and follows nothing.
+    Geometry reserved = {};  ///< Memory for so large an image is there before the stream begins.
 };
 
 }  // namespace pursuit::tracker

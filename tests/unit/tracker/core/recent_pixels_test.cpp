@@ -33,8 +33,10 @@ TEST(RecentPixels, keep_pixels_and_polarities_apart) {
 TEST(RecentPixels, agrees_with_a_plain_record_of_every_event_and_forgets_it_with_the_stream) {
     RecentPixels recent;
     std::mt19937 random(1);
-    // The second stream has the same size, whose table is kept; the third another.
-    for (const Geometry geometry : {Geometry{37, 23}, Geometry{37, 23}, Geometry{640, 480}}) {
+    recent.reserve({400, 300});
+    // The table is kept where it is large enough, and all of it has to be zero again.
+    for (const Geometry geometry : {Geometry{37, 23}, Geometry{304, 240}, Geometry{37, 23},
+                                    Geometry{304, 240}, Geometry{640, 480}, Geometry{304, 240}}) {
         recent.restart(geometry);
         std::map<std::tuple<int, int, int>, std::int64_t> last_us;
         std::int64_t t_us = 0;
