@@ -17,6 +17,9 @@ constexpr double same_edge_px = 8;  // a pixel's events within this way belong t
 constexpr double least_lead_px = -1.2;
 constexpr double most_lead_px = 1.6;
 constexpr double lead_drift_px2_s = 1e-3;
+// What a level tells the place by: 0.1 px were the pose known when it was crossed before.
+constexpr double level_sigma_px = 0.2;
+constexpr double level_share = 0.5;  // an event of what is more likely something else tells of none
 
 // What the events of one passage over the pixels have in common (their grid, their thresholds, how
 // early they come): so far off the pose is however steadily it goes. Of the discs' scenes, seeds 21
@@ -56,6 +59,7 @@ KalmanEstimator<kind>::KalmanEstimator(const Contour& contour, const ObjectParam
       bend_(contour_),
       offsets_(contour_, kind),
       quiet_(contour_),
+      levels_(contour_),
       watch_(contour_) {
     LeadPhysics::prepare();
     set_parameters(parameters);
@@ -83,6 +87,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     bend_.restart();
     offsets_.restart();
     quiet_.restart();
+    levels_.restart();
     noise_.restart();
     most_pose_sigma_px_ = most_pose_sigma_px;
     residual_px_ = 0.5;
@@ -146,6 +151,7 @@ void KalmanEstimator<kind>::resume(std::int64_t t_us, const Pose& pose, const Ve
                                   direction * direction.transpose());
     measure_size();
     most_pose_sigma_px_ = std::max(most_pose_sigma_px, along_px);
+    levels_.restart();
     way_begin_ = pose;
     t_us_ = t_us;
     unspread_s_ = 0;
@@ -306,6 +312,7 @@ void KalmanEstimator<kind>::look_out(std::int64_t t_us) {
     filter_.restart(to->pose, M::twist_of(to->velocity),
                     step_of(sighted_sigma_px, sighted_sigma_px * per_px),
                     step_of(sighted_speed_sigma_px_s, sighted_speed_sigma_px_s * per_px));
+    levels_.restart();
     unspread_s_ = 0;
     spread_after_s_ = 0;
     steadiness_.restart();
@@ -412,6 +419,10 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     measured_.r_px = r_px;
     measured_.has_side = segment.per_length2 > 0;
     measured_.lead = lead;
+    measured_.event = event;
+    measured_.since_us = std::min(past.since_same_us, past.since_other_us);
+    measured_.place_px = place.r_px;
+    measured_.along = j;
     measured_.told = noise_.at(r_px, measured_.row.h_p_h, subsequent || is_late);
     near_ = {r_px * r_px, clutter_.density(place.piece, r_px), r_px * r_px, place.piece};
     return &near_;
@@ -443,6 +454,9 @@ bool KalmanEstimator<kind>::take(double weight) {
     if (watch_.is_on()) {
         const double doubt = (1 / share - 1) * r * r * per_variance;
         filter_.correct(measured_.row, r, per_variance, 1 - doubt);
+    } else if (share > level_share && measured_.has_side && !contour_.is_of_events() &&
+               levels_.tell_at(speed_px_s_)) {
+        correct_by_level(weight * share, per_variance);
     } else {
         filter_.correct(measured_.row, r, per_variance);
     }
@@ -455,6 +469,33 @@ bool KalmanEstimator<kind>::take(double weight) {
     most_pose_sigma_px_ =
         most_pose_sigma_px + bound_settles * (most_pose_sigma_px_ - most_pose_sigma_px);
     return true;
+}
+
+// The event tells where the edge is twice, by its lead and by the level. What both say is as one
+// measurement, in which the lead has the smaller part: enough for what levels were wrong by to go.
+template <TransformKind kind>
+void KalmanEstimator<kind>::correct_by_level(double share, double per_variance) {
+    constexpr double level_px2 = level_sigma_px * level_sigma_px;
+    const double speed_px_s = measured_.along.dot(filter_.twist());
+    const auto level = levels_.cross(measured_.event, measured_.since_us, near_.piece);
+    typename Filter::Row both;
+    const typename Filter::Row* row = &measured_.row;
+    double r_px = measured_.r_px;
+    bool is_right = true;
+    if (level.is_known) {
+        const double of_lead = level_px2 / (level_px2 + measured_.told.variance_px2());
+        both = filter_.row(measured_.along, measured_.lead, measured_.gone * of_lead);
+        const double beside_px = measured_.place_px - level.place_px;
+        const double right = levels_.check(beside_px, both.h_p_h + level_px2);
+        is_right = right > 0.5;
+        if (is_right) {
+            row = &both;
+            r_px = beside_px + of_lead * (r_px - beside_px);
+            per_variance = share * right / (both.h_p_h + (1 - of_lead) * level_px2);
+        }
+    }
+    filter_.correct(*row, r_px, per_variance);
+    levels_.learn(measured_.place_px - row->h_p_h * per_variance * r_px, speed_px_s, is_right);
 }
 
 // What the event says beside where the object is.

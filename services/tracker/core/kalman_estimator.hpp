@@ -12,6 +12,7 @@
 #include "services/tracker/core/lead_prior.hpp"
 #include "services/tracker/core/measurement_noise.hpp"
 #include "services/tracker/core/noise_watch.hpp"
+#include "services/tracker/core/pixel_levels.hpp"
 #include "services/tracker/core/quiet_facings.hpp"
 #include "services/tracker/core/steadiness.hpp"
 #include "services/tracker/core/trail.hpp"
@@ -20,7 +21,8 @@
 namespace pursuit::tracker {
 
 /// The filter: measures the signed distance of each event along the contour's normal, less the lead
-/// that events have on a moving edge (LeadPrior, Backlash, Trail). How fast the object can turn
+/// that events have on a moving edge (LeadPrior, Backlash, Trail), or beside where it was as the
+/// event's pixel was at this level before (PixelLevels). How fast the object can turn
 /// away is told by the event clock and by how steadily it goes (Steadiness), how much of what comes
 /// is the object's by the measured clutter. What a full affine transform leaves of a perspective
 /// view, a Bend explains.
@@ -35,7 +37,10 @@ class KalmanEstimator : public Estimator {
                 double way_px) override;
     void set_visible_share(double share) override { visible_share_ = share; }
     void set_usual_way(const UsualWay& way) override { usual_way_ = way; }
-    void set_blind_us(double blind_us) override { lead_prior_.set_blind_us(blind_us); }
+    void set_blind_us(double blind_us) override {
+        lead_prior_.set_blind_us(blind_us);
+        levels_.set_blind_us(blind_us);
+    }
     const Approach* approach(const Event& event, const PixelPast& past) override;
     [[nodiscard]] double likelihood() const override {
         return measured_.told.likelihood() * measured_.of_polarity;
@@ -84,6 +89,9 @@ class KalmanEstimator : public Estimator {
     /// How far it may go unheard: on a longer way so many events should have come that it stands.
     void find_silent_way();
     void learn(double r_px, double share);
+    /// Corrects by the level that the pixel has crossed as well, where that tells; per_variance:
+    /// of the event as such.
+    void correct_by_level(double share, double per_variance);
     /// What is half hidden goes as usual, more or less; noise: how it can turn away.
     void go_as_usual(double dt_s, Step& noise);
     /// What the filter knows, dt_s after it was told last.
@@ -119,6 +127,10 @@ class KalmanEstimator : public Estimator {
         double way_px = 0;     ///< That its edge has gone since its pixel fired, …
         bool has_way = false;  ///< … where that is known.
         bool has_side = false;
+        Event event;
+        std::int64_t since_us = 0;  ///< Its pixel's last one.
+        double place_px = 0;        ///< Of its pixel beside the contour, along the normal.
+        Step along;                 ///< d(place)/d(pose), the other way round.
     };
 
     /// How large the contour is in the image.
@@ -146,6 +158,7 @@ class KalmanEstimator : public Estimator {
     Bend bend_;
     ContourOffsets offsets_;
     QuietFacings<kind> quiet_;
+    PixelLevels levels_;
     NoiseWatch watch_;
     Measurement measured_{};
     Approach near_;
