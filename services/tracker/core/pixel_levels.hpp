@@ -53,6 +53,7 @@ class PixelLevels {
     /// The pose has been put elsewhere.
     void restart() {
         trust_ = trust_at_first;
+        crossed_again_ = 0;
         if (++epoch_ != 0) return;
         std::fill(pixels_.begin(), pixels_.end(), Pixel());
         epoch_ = 1;
@@ -103,14 +104,20 @@ class PixelLevels {
         const double u = 1 + beside_px * beside_px / (3 * variance_px2);
         const double own = trust_ * 0.368 / (std::sqrt(variance_px2) * u * u);
         const double right = own / (own + (1 - trust_) * stray_density);
-        trust_ = clamped(trust_ + trust_memory * (right - trust_), least_trust, 1 - least_trust);
+        trust_ = clamped(trust_ + memory * (right - trust_), least_trust, 1 - least_trust);
         return right;
     }
+
+    /// Of the last hundred events or so, how many crossed a level again where it was thought to be:
+    /// 0 … 1. Of an object that goes on as it went none do; of one that turns back and forth, many.
+    [[nodiscard]] double crossed_again() const { return crossed_again_; }
 
     /// Where the pixel of cross() is, beside an edge that moves so fast along its normal; whether
     /// what was told of it was right.
     [[gnu::always_inline]] void learn(double place_px, double speed_px_s, bool was_right) {
         Pixel& pixel = *at_;
+        const bool again = was_right && pixel.places[pixel.level] != unknown;
+        crossed_again_ += memory * ((again ? 1 : 0) - crossed_again_);
         if (!was_right) pixel.places.fill(unknown);
         pixel.places[pixel.level] = fixed(place_px - grain_px * pixel.moved);
         // On a longer way another level takes this one's place.
@@ -128,7 +135,7 @@ class PixelLevels {
     static constexpr float same_edge_px = 3;
     static constexpr float same_edge_cosine = 0.9F;
     static constexpr double trust_at_first = 0.5;
-    static constexpr double trust_memory = 0.01;
+    static constexpr double memory = 0.01;  // of an event
     static constexpr double least_trust = 0.02;
     static constexpr double stray_density = 0.5;  // 1/px: anywhere on the blurred edge
     static constexpr int most_side_bits = 6;    // two sides of one object seldom share a place then
@@ -175,6 +182,7 @@ class PixelLevels {
     std::uint16_t epoch_ = 1;
     double moves_for_s_ = 1e-6 * of_blind * usual_blind_us;
     double trust_ = trust_at_first;
+    double crossed_again_ = 0;
     Pixel* at_ = nullptr;
 };
 

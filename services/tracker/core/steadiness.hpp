@@ -10,7 +10,8 @@ namespace pursuit::tracker {
 /// this readiness lets the noise of the events in: on a disc, half of the variance. Events tell
 /// which it is: had the twist wandered as much as was thought, they would have corrected it by as
 /// much, in the mean over a few px of way. Where they correct it by less, less is expected of it;
-/// where they correct it by more, the usual is expected again within a part of a pixel.
+/// where they correct it by more, the usual is expected again within a part of a pixel, or more
+/// than the usual where it is known that the object may do more.
 template <int dof>
 class Steadiness {
  public:
@@ -26,8 +27,9 @@ class Steadiness {
     }
 
     /// Since begin() it went so far, turning by so much, has this twist now, and usually would have
-    /// changed it by this variance.
-    void go(double way_px, double angle_rad, const Step& twist, const Step& usual) {
+    /// changed it by this variance, at most by so many times that.
+    void go(double way_px, double angle_rad, const Step& twist, const Step& usual,
+            double most_share = 1) {
         if (!has_begun_ || !(way_px > 0)) return;
         const double keep = 1 / (1 + way_px / window_px);
         changed_ = keep * changed_ + twist - twist_;
@@ -37,10 +39,10 @@ class Steadiness {
         expected_ = keep * keep * expected_ + share_.cwiseProduct(usual);
         const Array misfit = changed_.array().square() / expected_.array() - 1;
         const Array grown = (misfit * (way_px / learnt_px)).min(most_growth);
-        share_ = (share_.array() * (1 + grown)).max(least_share).min(1.0);
+        share_ = (share_.array() * (1 + grown)).max(least_share).min(most_share);
     }
 
-    /// Of the usual variance, what is to be expected: 0 … 1.
+    /// Of the usual variance, what is to be expected: 0 … 1, or more.
     [[nodiscard]] const Step& share() const { return share_; }
 
  private:

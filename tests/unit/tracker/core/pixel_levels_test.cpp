@@ -120,6 +120,18 @@ TEST_F(OnePixel, takes_a_long_blindness_for_rare_events) {
     EXPECT_NEAR(fire(false, 0.5, -100).place_px, usual_px, grain_px);
 }
 
+TEST_F(OnePixel, tells_an_object_that_turns_back_and_forth_from_one_that_goes_on) {
+    for (int i = 0; i < 300; ++i) {
+        x_ = i / 3 % 2 == 0 ? 100 : 101;
+        fire(true, 0.5 - 0.3 * (i % 3));
+    }
+    EXPECT_EQ(levels_.crossed_again(), 0);
+    for (int i = 0; i < 300; ++i) fire(i % 2 == 0, 0.5);
+    EXPECT_GT(levels_.crossed_again(), 0.8);
+    levels_.restart();
+    EXPECT_EQ(levels_.crossed_again(), 0);
+}
+
 TEST_F(OnePixel, is_trusted_less_where_it_does_not_fit) {
     const double before = levels_.check(0.1, 0.05);
     for (int i = 0; i < 300; ++i) levels_.check(i % 2 == 0 ? 0.9 : -0.7, 0.05);

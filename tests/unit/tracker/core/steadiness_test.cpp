@@ -14,13 +14,14 @@ constexpr double step_px = 0.05;
 constexpr double usual_change = 4;
 
 /// So far it goes, its twist corrected at every step by this σ at random, in units of the usual.
-void wander(Steady& steadiness, double px, double of_usual, Steady::Step& twist) {
+void wander(Steady& steadiness, double px, double of_usual, Steady::Step& twist,
+            double most_share = 1) {
     std::mt19937 random(5);
     std::normal_distribution<double> normal(0, of_usual * std::sqrt(usual_change));
     for (double gone_px = 0; gone_px < px; gone_px += step_px) {
         steadiness.begin(twist);
         for (int i = 0; i < 3; ++i) twist(i) += normal(random);
-        steadiness.go(step_px, 0, twist, Steady::Step::Constant(usual_change));
+        steadiness.go(step_px, 0, twist, Steady::Step::Constant(usual_change), most_share);
     }
 }
 
@@ -42,6 +43,18 @@ TEST(Steadiness, the_usual_is_expected_of_what_wanders_as_much_as_usual) {
     Steady::Step twist(1000, 0, 0);
     wander(steadiness, 100, 1, twist);
     EXPECT_GT(steadiness.share().mean(), 0.5);
+}
+
+TEST(Steadiness, more_than_the_usual_is_expected_where_it_may_be_and_is) {
+    Steady steadiness;
+    Steady::Step twist(1000, 0, 0);
+    wander(steadiness, 100, 3, twist);
+    EXPECT_LE(steadiness.share().maxCoeff(), 1);
+    wander(steadiness, 100, 3, twist, 8);
+    EXPECT_GT(steadiness.share().mean(), 3);
+    EXPECT_LE(steadiness.share().maxCoeff(), 8);
+    wander(steadiness, 100, 0.05, twist, 8);
+    EXPECT_LT(steadiness.share().maxCoeff(), 0.2);
 }
 
 TEST(Steadiness, a_turn_is_expected_again_within_part_of_a_pixel) {
