@@ -15,6 +15,7 @@ constexpr double far_memory_s = 0.5;
 constexpr double rise_s = 0.1;  // of what is usual on the contour
 constexpr double fall_s = 1;
 constexpr std::int64_t bin_us = 4'000;
+constexpr std::int64_t bound_every_us = 4'000;
 constexpr double bins_remembered = 40;
 constexpr double more_than_noise = 1.4;
 constexpr double swamping_hz = 200;  // a pixel
@@ -79,6 +80,8 @@ void Clutter::restart() {
     bin_events_ = bin_mean_ = bin_variance_ = bins_ = 0;
     bin_end_us_ = 0;
     clutter_hz_ = noise_hz_ = 0;
+    most_noise_hz_ = std::numeric_limits<double>::infinity();
+    bounded_us_ = 0;
     remembered_ = 0;
     new_far_ = far_hz_ = {};
     near_count_ = near_began_us_ = slack_us_ = 0;
@@ -211,6 +214,8 @@ void Clutter::close_bin(std::int64_t t_us) {
     if (is_first || missed_us > bin_us) {  // A silence is no noise.
         bins_ = 0;
         bin_mean_ = bin_variance_ = bin_events_ = 0;
+        most_noise_hz_ = std::numeric_limits<double>::infinity();
+        bounded_us_ = 0;
         set_steady(false);
         return;
     }
@@ -222,7 +227,21 @@ void Clutter::close_bin(std::int64_t t_us) {
     set_steady(seems_steady());
 }
 
+std::int64_t Clutter::asks_for_noise_of_us(std::int64_t t_us) const {
+    if (bins_ < 1 || bin_mean_ < few_events || t_us - bounded_us_ < bound_every_us) return 0;
+    // In the time in which two of three pixels would have fired.
+    return static_cast<std::int64_t>(
+        std::min(bins_ * static_cast<double>(bin_us), 1e6 / std::max(noise_hz_, 1e-3)));
+}
+
+void Clutter::bound_noise(std::int64_t t_us, double most_hz) {
+    bounded_us_ = t_us;
+    most_noise_hz_ = most_hz;
+    if (is_steady_) set_steady(seems_steady());
+}
+
 bool Clutter::seems_steady() const {
+    if (!can_be_noise(noise_hz_)) return false;
     const double enough = bin_mean_ > many_events ? least_bins_of_many : least_bins;
     if (bins_ < enough || bin_mean_ < few_events) return false;
     const double left = far_hz_[0] * whole_.far_area_px2[1];

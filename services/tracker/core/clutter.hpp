@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "services/tracker/core/contour.hpp"
@@ -78,6 +79,15 @@ class Clutter {
     /// come and go on one side.
     [[nodiscard]] bool is_steady() const { return is_steady_; }
 
+    /// Whether there can be so much noise, of what the pixels about the object show.
+    [[nodiscard]] bool can_be_noise(double hz) const {
+        return hz < of_uneven_pixels * most_noise_hz_;
+    }
+    /// How long it is that what comes beside the contour may have been noise, and is to be told how
+    /// much of it there can be, from time to time; 0 while it is not.
+    [[nodiscard]] std::int64_t asks_for_noise_of_us(std::int64_t t_us) const;
+    void bound_noise(std::int64_t t_us, double most_hz);
+
     /// Whether steady noise of 200 Hz a pixel and more leaves next to nothing of what is on the
     /// contour to the object; until half of it is.
     [[nodiscard]] bool is_swamped() const { return is_swamped_; }
@@ -146,6 +156,8 @@ class Clutter {
     bool is_noise_alone_ = false;
     bool is_swamped_ = false;
     double noise_hz_ = 0;
+    double most_noise_hz_ = std::numeric_limits<double>::infinity();
+    std::int64_t bounded_us_ = 0;
     double usual_near_hz_ = 0;
     bool is_quiet_ = false;  // far fewer events than usual: most are not its own
     double clutter_hz_ = 0;
@@ -169,6 +181,9 @@ class Clutter {
     static constexpr double few_events = 10;
     static constexpr double most_dispersion = 1.7;
     static constexpr double most_uneven = 1.6;
+    // Where some pixels are noisier than others, more comes than the number of them tells that
+    // fire.
+    static constexpr double of_uneven_pixels = 2.5;
     double bin_events_ = 0;
     double bin_mean_ = 0;
     double bin_variance_ = 0;

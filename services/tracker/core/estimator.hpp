@@ -8,6 +8,7 @@
 #include "services/tracker/core/contour.hpp"
 #include "services/tracker/core/pixel_past.hpp"
 #include "services/tracker/core/pose_record.hpp"
+#include "services/tracker/core/recent_pixels.hpp"
 #include "services/tracker/core/registration.hpp"
 #include "services/tracker/core/usual_way.hpp"
 
@@ -52,6 +53,12 @@ class Estimator {
 
     /// How long a pixel of the sensor is blind after an event, as far as is known.
     virtual void set_blind_us(double blind_us) { static_cast<void>(blind_us); }
+
+    /// How the pixels about the object fired lately, every ms or so.
+    virtual void look_about(std::int64_t t_us, const RecentPixels& pixels) {
+        static_cast<void>(t_us);
+        static_cast<void>(pixels);
+    }
 
     /// The event's distance to the model in the image; null beyond the gate. Holds until the next.
     virtual const Approach* approach(const Event& event, const PixelPast& past) = 0;

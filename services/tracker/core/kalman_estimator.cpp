@@ -6,6 +6,7 @@
 
 #include "services/tracker/core/clamped.hpp"
 #include "services/tracker/core/contour_place.hpp"
+#include "services/tracker/core/most_noise.hpp"
 #include "services/tracker/core/told_covariance.hpp"
 
 namespace pursuit::tracker {
@@ -327,6 +328,14 @@ void KalmanEstimator<kind>::look_out(std::int64_t t_us) {
     // It did not go this way event by event.
     clock_.begin_way();
     way_begin_ = to->pose;
+}
+
+template <TransformKind kind>
+void KalmanEstimator<kind>::look_about(std::int64_t t_us, const RecentPixels& pixels) {
+    const std::int64_t over_us = clutter_.asks_for_noise_of_us(t_us);
+    if (over_us == 0) return;
+    clutter_.bound_noise(
+        t_us, most_noise_hz(t_us, over_us, filter_.pose().t_px, size_.extent_px, pixels));
 }
 
 // The pose of the last near event and how far the object can have gone since tell.

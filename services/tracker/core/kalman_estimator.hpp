@@ -41,6 +41,7 @@ class KalmanEstimator : public Estimator {
         lead_prior_.set_blind_us(blind_us);
         levels_.set_blind_us(blind_us);
     }
+    void look_about(std::int64_t t_us, const RecentPixels& pixels) override;
     const Approach* approach(const Event& event, const PixelPast& past) override;
     [[nodiscard]] double likelihood() const override {
         return measured_.told.likelihood() * measured_.of_polarity;

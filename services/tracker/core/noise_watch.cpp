@@ -47,6 +47,7 @@ void NoiseWatch::restart(const Pose& pose, const Velocity& velocity) {
 }
 
 void NoiseWatch::tell_noise(const Clutter& clutter, double visible_share) {
+    is_on_ &= clutter.can_be_noise(noise_hz_);
     // Beside what hides it in part it is not the noise that is counted: then what was known holds.
     if (visible_share < unhidden_share) {
         is_on_ &= visible_share > least_visible_share;

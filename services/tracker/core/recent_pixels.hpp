@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "services/common/event.hpp"
 #include "services/tracker/core/large_table.hpp"
@@ -43,15 +44,20 @@ class RecentPixels {
         return past;
     }
 
-    /// Whether an edge that reaches this place at t_us will find its pixel blind.
-    [[nodiscard]] bool is_blind(const Eigen::Vector2d& p_px, double t_us) const {
-        if (!(p_px.x() >= 0 && p_px.y() >= 0)) return false;
+    /// When the pixel at this place fired last, either way; nothing outside the image.
+    [[nodiscard]] std::optional<std::int64_t> last_us(const Eigen::Vector2d& p_px) const {
+        if (!(p_px.x() >= 0 && p_px.y() >= 0)) return std::nullopt;
         const auto x = static_cast<std::size_t>(p_px.x() + 0.5);
         const auto y = static_cast<std::size_t>(p_px.y() + 0.5);
         const std::size_t at = 2 * (y * width_ + x);
-        if (x >= width_ || at >= last_us_.size()) return false;
-        const std::int64_t last_us = std::max(last_us_[at], last_us_[at + 1]) - PixelPast::never_us;
-        return t_us - static_cast<double>(last_us) < blind_us();
+        if (x >= width_ || at >= last_us_.size()) return std::nullopt;
+        return std::max(last_us_[at], last_us_[at + 1]) - PixelPast::never_us;
+    }
+
+    /// Whether an edge that reaches this place at t_us will find its pixel blind.
+    [[nodiscard]] bool is_blind(const Eigen::Vector2d& p_px, double t_us) const {
+        const auto last = last_us(p_px);
+        return last && t_us - static_cast<double>(*last) < blind_us();
     }
 
     /// How long a pixel is blind after an event, as far as its events tell.

@@ -321,6 +321,7 @@ void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
                                  pixels, outline_);
         }
         grip_.look_around(t_us, outline_, estimator_->pose(), estimator_->velocity());
+        estimator_->look_about(t_us, pixels);
     }
     if (vanishing_.is_gone(t_us)) {
         if (!is_acquiring_) lose_grip(t_us);

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
+#include "services/tracker/core/contour_place.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
 
 namespace pursuit::tracker {
@@ -24,6 +28,41 @@ TEST(Clutter, is_near_nothing_for_an_object_alone_and_high_in_noise) {
     }
     EXPECT_GT(clutter.density(0, 1), 0.2);
     EXPECT_LT(clutter.own_share(), 0.3);
+}
+
+/// 50 Hz of noise about the contour for 400 ms; all the pixels about it tell of most_hz.
+Clutter in_steady_noise(double most_hz) {
+    constexpr double half_px = 80;
+    constexpr double rate_hz = 50 * 4 * half_px * half_px;
+    Contour contour{test::arrow()};
+    contour.fit(Eigen::Matrix2d::Identity(), 8);
+    Clutter clutter;
+    clutter.restart();
+    clutter.sample(contour, Eigen::Matrix2d::Identity());
+    std::mt19937 random(1);
+    std::exponential_distribution<double> wait_us(rate_hz * 1e-6);
+    std::uniform_real_distribution<double> at_px(-half_px, half_px);
+    for (double t_us = 0; t_us < 400e3; t_us += wait_us(random)) {
+        const auto now_us = static_cast<std::int64_t>(t_us);
+        clutter.reach(now_us);
+        if (clutter.asks_for_noise_of_us(now_us) > 0) clutter.bound_noise(now_us, most_hz);
+        const ContourPlace place = place_on_contour<TransformKind::isometry>(
+            contour.pieces(), Eigen::Matrix2d::Identity(), {at_px(random), at_px(random)},
+            Clutter::far_to_px);
+        if (place.piece < 0) continue;
+        if (std::abs(place.r_px) > Clutter::far_from_px) clutter.count_far(place.piece, place.r_px);
+    }
+    return clutter;
+}
+
+TEST(Clutter, takes_for_noise_what_is_steady_and_comes_from_everywhere) {
+    EXPECT_TRUE(in_steady_noise(50).is_steady());
+}
+
+TEST(Clutter, takes_nothing_for_noise_that_the_other_pixels_do_not_make) {
+    const Clutter clutter = in_steady_noise(5);
+    EXPECT_NEAR(clutter.noise_hz(), 50, 10);
+    EXPECT_FALSE(clutter.is_steady());
 }
 
 }  // namespace
