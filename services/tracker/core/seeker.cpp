@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "services/tracker/core/lead_on.hpp"
 #include "services/tracker/core/where_to_look.hpp"
 
 namespace pursuit::tracker {
@@ -121,14 +122,14 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks, const Occlusion& 
     }
     has_looked_ = true;
     going_ = range.going;
-    checked_ = range.checked;
+    checked_ = own_ = range.checked;
     if (is_check_ && !going_) {
         checked_ = checked_.at(t_us - static_cast<std::int64_t>(mean_age_us(t_us)), 1);
         const double back_rad = theta_rad(checked_.pose.a) - theta_rad(range.checked.pose.a);
         range.around = {checked_.pose.t_px, rotation(back_rad) * range.around.a};
         range.seeds.front() = checked_.pose;
     }
-    if (going_) lead_on(t_us, *going_);
+    if (going_) lead_on(gathered_, t_us, *going_, geometry_);
     if (!is_check_) chase_.begin(last_, t_us - static_cast<std::int64_t>(mean_age_us(t_us)));
     map_.build(geometry_, gathered_);
     search_ = is_check_ ? ShapeSearch(chosen->contour(), chosen->outline())
@@ -192,6 +193,7 @@ void Seeker::end_check(std::int64_t t_us, Track& track) {
     if (finding.is_told && !finding.is_here) {
         finding.gain += explained_weight * (search_.explained(search_.found()->pose) -
                                             search_.explained(checked_.pose));
+        if (!going_) finding.gain -= more_as_it_goes();
     }
     if (!track.take_finding(t_us, finding)) return;
     // Where it has gone meanwhile, if it goes so.
@@ -210,13 +212,25 @@ void Seeker::end_check(std::int64_t t_us, Track& track) {
     track.move_to(t_us, found.pose, found.velocity);
 }
 
+// An object smears its own events as it goes, so that it stands out less where it is than some
+// place half behind it: how much more speaks for it in the same events led on.
+double Seeker::more_as_it_goes() {
+    const auto worth = [&](const Pose& pose) {
+        return search_.score_of(pose) + explained_weight * search_.explained(pose);
+    };
+    const double standing = worth(checked_.pose);
+    lead_on(gathered_, own_.t_us, own_, geometry_);
+    map_.build(geometry_, gathered_);
+    return std::max(worth(own_.pose) - standing, 0.0);
+}
+
 void Seeker::look_again(std::int64_t t_us, const Track& track, SearchRange again) {
     again.reach_px = again.usual_distance_px = again_reach_px;
     again.angle_rad = again_angle_rad;
     again.log_scale = track.has_fixed_scale() || is_check_ ? 0 : again_log_scale;
     gather(t_us, again, track.radius_px(),
            static_cast<std::size_t>(events_per_px * track.contour().length_px()));
-    if (again.going) lead_on(t_us, *again.going);
+    if (again.going) lead_on(gathered_, t_us, *again.going, geometry_);
     map_.build(geometry_, gathered_);
     search_.begin(map_, again);
     search_.step(1 << 30);
@@ -278,27 +292,6 @@ double Seeker::mean_age_us(std::int64_t t_us) const {
     double sum_us = 0;
     for (const Event& event : gathered_) sum_us += static_cast<double>(t_us - event.t_us);
     return gathered_.empty() ? 0 : sum_us / static_cast<double>(gathered_.size());
-}
-
-// Moves the gathered events to where an object that goes so would make them now.
-void Seeker::lead_on(std::int64_t t_us, const Coast& going) {
-    const Coast now = going.at(t_us, 1);
-    Coast then = now;
-    Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();
-    std::int64_t of_us = t_us;
-    for (Event& event : gathered_) {
-        if (event.t_us != of_us) {
-            of_us = event.t_us;
-            then = now.at(of_us, 1);
-            turn = rotation(now.velocity.omega_rad_s * static_cast<double>(t_us - of_us) * 1e-6);
-        }
-        const Eigen::Vector2d p =
-            now.pose.t_px + turn * (Eigen::Vector2d(event.x, event.y) - then.pose.t_px);
-        event.x =
-            static_cast<std::uint16_t>(std::clamp(std::lround(p.x()), 0L, geometry_.width - 1L));
-        event.y =
-            static_cast<std::uint16_t>(std::clamp(std::lround(p.y()), 0L, geometry_.height - 1L));
-    }
 }
 
 }  // namespace pursuit::tracker

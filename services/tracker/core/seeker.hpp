@@ -61,11 +61,11 @@ class Seeker {
     void go_on_chasing(std::int64_t t_us, Track& track);
     void find_nearby(std::int64_t t_us, Track& track);
     void end_check(std::int64_t t_us, Track& track);
+    [[nodiscard]] double more_as_it_goes();
     /// Whether it came from what lies over the object, where that was then.
     [[nodiscard]] bool is_of_cover(const Event& event) const;
     /// Looks again near a pose, in the newest events.
     void look_again(std::int64_t t_us, const Track& track, SearchRange again);
-    void lead_on(std::int64_t t_us, const Coast& going);
     [[nodiscard]] double mean_age_us(std::int64_t t_us) const;
     /// The last `count` events that have a neighbour in space and time, in reach of the range.
     void gather(std::int64_t t_us, const SearchRange& range, double radius_px, std::size_t count);
@@ -89,7 +89,8 @@ class Seeker {
     ShapeSearch search_;
     Look look_;
     bool is_check_ = false;
-    Coast checked_;                // the track, when the gathered events came
+    Coast checked_;                // the track, when the gathered events came, …
+    Coast own_;                    // … and when they were gathered
     std::optional<Coast> going_;   // how they were led on to where they would come now
     std::uint32_t object_id_ = 0;  // of the search that goes on; 0: none
     std::uint32_t last_object_id_ = 0;
