@@ -21,6 +21,11 @@ constexpr double longest_s = 1;
 // Of a place before it is moved uphill.
 constexpr double worth_a_climb_z = 3.2;
 
+// Of what stands out in another turn: before it is moved uphill, and after it.
+constexpr double climbs_to_same = 0.6;
+constexpr double same_share = 0.9;
+constexpr double most_turns = 8;
+
 // Beyond chance, with the number of places that are as near; and beyond what the own place shows.
 constexpr double beyond_chance_z = 4.7;
 constexpr double farther_z_per_px = 0.13;
@@ -44,7 +49,9 @@ std::int64_t age_us(std::size_t slice) {
 Lookout::Lookout(const Contour& contour) : scores_(turns * places * places) {
     for (const ContourSample& sample : samples_along(contour, most_samples)) {
         samples_.push_back(sample.at_px);
+        middle_px_ += sample.at_px;
     }
+    if (!samples_.empty()) middle_px_ /= static_cast<double>(samples_.size());
 }
 
 void Lookout::place(const Eigen::Vector2d& center_px, double extent_px) {
@@ -235,6 +242,27 @@ Coast Lookout::uphill(const Coast& coast, double& z) const {
     z = z_of(coast);
     return climb(coast, z, {most_rounds, velocity_steps_per_s, turn_rad_},
                  [this](const Coast& moved) { return z_of(moved); });
+}
+
+Coast Lookout::nearest_turn(const Coast& found, double near_rad) const {
+    constexpr double turn_rad = 2 * std::numbers::pi;
+    const double z = z_of(found);
+    const double found_rad = std::remainder(theta_rad(found.pose.a) - near_rad, turn_rad);
+    // Of a shape with so many turns another one is nearer only beyond half of one.
+    if (std::abs(found_rad) < std::numbers::pi / most_turns) return found;
+    // The nearest first, to the left and to the right.
+    for (double off_rad = 0; off_rad + turn_rad_ < std::abs(found_rad); off_rad += turn_rad_) {
+        for (const double side : {1.0, -1.0}) {
+            Coast turned = found;
+            turned.pose.a = rotation(side * off_rad - found_rad) * found.pose.a;
+            turned.pose.t_px += (found.pose.a - turned.pose.a) * middle_px_;
+            double turned_z = z_of(turned);
+            if (turned_z < climbs_to_same * z) continue;
+            turned = uphill(turned, turned_z);
+            if (turned_z > same_share * z) return turned;
+        }
+    }
+    return found;
 }
 
 Coast Lookout::best_of_around(const Coast& own, const Velocity& going) const {

@@ -52,6 +52,10 @@ class Lookout {
     /// gyration_px, extent_px: of the contour in the image.
     Sight look(const Coast& own, double gyration_px, double extent_px, bool everywhere);
 
+    /// A shape that maps onto itself stands out as much in each of its turns: of those of what the
+    /// last look found, the one nearest to this angle.
+    [[nodiscard]] Coast nearest_turn(const Coast& found, double near_rad) const;
+
     static constexpr std::int64_t every_us = 4'000;
     static constexpr int reach_px = 6;    ///< Places looked at: in x and y, each way, …
     static constexpr int reach_turn = 8;  ///< … and turned by so many px of the gyration.
@@ -84,6 +88,7 @@ class Lookout {
     };
 
     std::vector<Eigen::Vector2d> samples_;  // model frame, evenly along the contour
+    Eigen::Vector2d middle_px_{0, 0};       // of them
     double turn_rad_ = 0;                   // of a step
     FiredCounts fresh_;                     // since the last look
     Box seen_;

@@ -107,7 +107,7 @@ std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter,
         is_sighted_ = true;
         is_creeping_ = false;
         sighted_looks_ = 0;
-        return sight.instead;
+        return lookout_.nearest_turn(*sight.instead, theta_rad(held_.pose.a));
     }
     is_sighted_ = own_z > (is_sighted_ ? still_here_z : here_z);
     sighted_looks_ = is_sighted_ ? sighted_looks_ + 1 : 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include "services/tracker/core/lookout.hpp"
@@ -67,6 +69,42 @@ TEST_F(LookingOut, sees_an_object_that_goes_among_noise_where_it_is_and_how_it_g
     EXPECT_LT(rms_px(shape_, sight.instead->pose, truth(24'000)), 1);
     EXPECT_NEAR(sight.instead->velocity.vx_px_s, 100, 50);
     EXPECT_NEAR(sight.instead->velocity.vy_px_s, -60, 50);
+}
+
+/// What a look at this shape finds, going, of its turns the one nearest to the angle.
+double nearest_rad(const Shape& shape, double found_rad, double near_rad) {
+    const auto truth = [](double t_us) { return pose_of(150 + 300e-6 * t_us, 120, 0.3); };
+    Lookout lookout{Contour{shape}};
+    Coast own{0, truth(0), {300, 0, 0, 0, 0}};
+    lookout.look(own, 20, 30, true);
+    for (const Event& event : outline_events(shape, truth, 0, 24'500, moving_per_ms,
+                                             noise_per_ms(30), small_sensor, 3)) {
+        while (event.t_us >= own.t_us + Lookout::every_us) {
+            own = own.at(own.t_us + Lookout::every_us, 1);
+            lookout.look(own, 20, 30, true);
+        }
+        lookout.see(event.x, event.y, event.polarity);
+    }
+    own.pose.a = rotation(found_rad);
+    return theta_rad(lookout.nearest_turn(own, near_rad).pose.a);
+}
+
+TEST(NearestTurn, of_a_shape_that_maps_onto_itself_is_that_nearest_to_where_it_was) {
+    std::vector<Eigen::Vector2d> corners_px;
+    for (int i = 0; i < 10; ++i) {
+        const double at_rad = i * std::numbers::pi / 5;
+        const double r_px = i % 2 == 0 ? 30 : 13;
+        corners_px.emplace_back(r_px * std::cos(at_rad), r_px * std::sin(at_rad));
+    }
+    const Shape star = test::polygon("star", corners_px);
+    constexpr double of_a_turn_rad = 2 * std::numbers::pi / 5;
+    EXPECT_NEAR(nearest_rad(star, 0.3 + of_a_turn_rad, 0.2), 0.3, 0.06);
+    EXPECT_NEAR(nearest_rad(star, 0.3 - 2 * of_a_turn_rad, 0.5), 0.3, 0.06);
+    EXPECT_NEAR(nearest_rad(star, 0.3, 0.2), 0.3, 1e-9);
+}
+
+TEST(NearestTurn, of_any_other_shape_is_the_one_that_was_found) {
+    EXPECT_NEAR(nearest_rad(test::arrow(), 0.3, 1.5), 0.3, 1e-9);
 }
 
 TEST_F(LookingOut, sees_that_an_object_is_where_it_is_thought_to_be) {
