@@ -18,7 +18,9 @@ struct SearchRange {
     double log_scale = 0;           ///< Either way; 0 keeps the scale.
     double usual_distance_px = 30;  ///< Places so far off count one standard deviation less.
 
-    std::vector<Pose> seeds;    ///< Poses to be looked at first, and a little preferred.
+    std::vector<Pose> seeds;  ///< Poses to be looked at first, and a little preferred.
+    std::vector<Pose>
+        stretched;              ///< Others, which may be stretched further along the model's axes.
     bool is_check = false;      ///< Whether it is where it is thought to be: what fits best counts.
     std::int64_t since_us = 0;  ///< Events before it tell nothing.
     Coast checked;              ///< What is checked: where it is and how it goes.

@@ -129,6 +129,9 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks, const Occlusion& 
         range.around = {checked_.pose.t_px, rotation(back_rad) * range.around.a};
         range.seeds.front() = checked_.pose;
     }
+    if (is_check_ && chosen->may_stretch()) {
+        range.stretched = stretched_poses(chosen->contour(), checked_.pose);
+    }
     if (going_) lead_on(gathered_, t_us, *going_, geometry_);
     if (!is_check_) chase_.begin(last_, t_us - static_cast<std::int64_t>(mean_age_us(t_us)));
     map_.build(geometry_, gathered_);

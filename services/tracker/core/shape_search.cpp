@@ -100,7 +100,11 @@ void ShapeSearch::begin(const FiredMap& map, const SearchRange& range) {
     map_ = &map;
     range_ = range;
     found_.reset();
-    seed_next_ = fine_next_ = 0;
+    seed_next_ = stretched_next_ = fine_next_ = 0;
+    fired_about_ = 1;
+    for (const Pose& pose : range_.stretched) {
+        fired_about_ = std::max<double>(fired_about_, fired_near(pose).near_it);
+    }
     coarse_.begin(map, range);
     stage_ = Stage::coarse;
 }
@@ -112,9 +116,11 @@ void ShapeSearch::step(int poses) {
     }
     while (poses > 0 && stage_ == Stage::fine) {
         if (seed_next_ < range_.seeds.size()) {
-            weigh(range_.seeds[seed_next_++], true);
+            weigh(range_.seeds[seed_next_++], From::seed);
+        } else if (stretched_next_ < range_.stretched.size()) {
+            weigh(range_.stretched[stretched_next_++], From::stretched);
         } else if (fine_next_ < coarse_.count()) {
-            weigh(coarse_.pose(fine_next_++), false);
+            weigh(coarse_.pose(fine_next_++), From::grid);
         } else {
             stage_ = Stage::done;
         }
@@ -122,11 +128,12 @@ void ShapeSearch::step(int poses) {
     }
 }
 
-void ShapeSearch::weigh(const Pose& pose, bool is_seed) {
-    const Pose fit_pose = fitted(pose);
+void ShapeSearch::weigh(const Pose& pose, From from) {
+    const Pose fit_pose = fitted(pose, from == From::stretched);
     const Fit fit = fit_of(fit_pose);
     const double far = (fit_pose.t_px - range_.around.t_px).norm() / range_.usual_distance_px;
-    double worth = fit.score + (is_seed ? seed_bonus
+    double worth =
+        fit.score + (from == From::seed ? seed_bonus
                                         : -(range_.is_check ? far_malus_of_check : far_malus) *
                                               std::min(far * far, 4.0));
     bool is_sure = fit.score > least_score + chance_margin * fit.chance;
@@ -136,8 +143,13 @@ void ShapeSearch::weigh(const Pose& pose, bool is_seed) {
         const double hits = fit.chance + fit.score * (1 - fit.chance);
         is_sure |= fit.score > least_score && hits > least_hits && share > least_explained;
     }
-    if ((is_sure || range_.is_check) && (!found_ || worth > found_->score)) {
+    // Of shapes drawn out differently a small one may fit as well as the right one, and explains
+    // only a part of what the right one does.
+    double rank = worth;
+    if (!range_.stretched.empty()) rank += explained(fit_pose);
+    if ((is_sure || range_.is_check) && (!found_ || rank > highest_rank_)) {
         found_ = Found{fit_pose, worth, is_sure};
+        highest_rank_ = rank;
     }
 }
 
@@ -152,19 +164,22 @@ double ShapeSearch::mean_distance(const Pose& pose) const {
 }
 
 // Downhill along one direction after another, with steps that shrink.
-Pose ShapeSearch::fitted(Pose pose) const {
+Pose ShapeSearch::fitted(Pose pose, bool stretches) const {
     double best = mean_distance(pose);
     const double rim_px = std::max(radius_px_, 4.0);
+    const int directions_tried = stretches ? 10 : range_.log_scale > 0 ? 8 : 6;
     for (double step_px = 2; step_px > 0.4; step_px /= 2) {
         for (int round = 0; round < 3; ++round) {
             bool has_moved = false;
-            for (int direction = 0; direction < (range_.log_scale > 0 ? 8 : 6); ++direction) {
+            for (int direction = 0; direction < directions_tried; ++direction) {
                 Pose tried = pose;
                 const double sign = direction % 2 == 0 ? 1 : -1;
                 if (direction < 2) tried.t_px.x() += sign * step_px;
                 if (direction / 2 == 1) tried.t_px.y() += sign * step_px;
                 if (direction / 2 == 2) tried.a = rotation(sign * step_px / rim_px) * pose.a;
-                if (direction / 2 == 3) tried.a = pose.a * (1 + sign * step_px / rim_px);
+                if (direction / 2 == 3 && !stretches) tried.a *= 1 + sign * step_px / rim_px;
+                if (direction / 2 == 3 && stretches) tried.a.col(0) *= 1 + sign * step_px / rim_px;
+                if (direction / 2 == 4) tried.a.col(1) *= 1 + sign * step_px / rim_px;
                 const double value = mean_distance(tried);
                 if (value < best) {
                     best = value;
@@ -179,6 +194,12 @@ Pose ShapeSearch::fitted(Pose pose) const {
 }
 
 double ShapeSearch::explained(const Pose& pose) {
+    const Fired fired = fired_near(pose);
+    const double all = range_.stretched.empty() ? fired.near_it : fired_about_;
+    return all > 0 ? fired.on_it / all : 0;
+}
+
+ShapeSearch::Fired ShapeSearch::fired_near(const Pose& pose) {
     if (drawn_.columns() == 0) draw();
     const Eigen::Matrix2d model_from_image = pose.a.inverse();
     const double cell_px = map_->cell_px();
@@ -186,8 +207,7 @@ double ShapeSearch::explained(const Pose& pose) {
     const Eigen::Vector2d first = (pose.t_px.array() - reach_px) / cell_px;
     const Eigen::Vector2d last = (pose.t_px.array() + reach_px) / cell_px;
     const auto thirds = [&](double px) { return 3 * px / drawn_.cell_px(); };
-    int on_it = 0;
-    int near_it = 0;
+    Fired fired;
     for (int row = static_cast<int>(first.y()); row <= last.y(); ++row) {
         for (int column = static_cast<int>(first.x()); column <= last.x(); ++column) {
             if (map_->distance(column, row) != 0) continue;
@@ -197,11 +217,11 @@ double ShapeSearch::explained(const Pose& pose) {
             const int distance = drawn_.distance(static_cast<int>(std::lround(m.x())),
                                                  static_cast<int>(std::lround(m.y())));
             if (distance > thirds(near_it_px)) continue;
-            ++near_it;
-            on_it += distance <= thirds(on_it_px) ? 1 : 0;
+            ++fired.near_it;
+            fired.on_it += distance <= thirds(on_it_px) ? 1 : 0;
         }
     }
-    return near_it == 0 ? 0 : static_cast<double>(on_it) / near_it;
+    return fired;
 }
 
 ShapeSearch::Fit ShapeSearch::fit_of(const Pose& pose) const {

@@ -44,7 +44,8 @@ class ShapeSearch {
     /// How well a pose fits as it is.
     [[nodiscard]] double score_of(const Pose& pose) const { return fit_of(pose).score; }
     /// Of what fired near the contour, the share that fired on it, 0 … 1: what lies on lines of
-    /// something else leaves others of its lines unexplained.
+    /// something else leaves others of its lines unexplained. Where stretched poses are looked at,
+    /// of all that fired near any of them: what is small explains less.
     [[nodiscard]] double explained(const Pose& pose);
     /// The best pose where it is good enough to be tried.
     [[nodiscard]] const std::optional<Found>& found() const { return found_; }
@@ -59,15 +60,22 @@ class ShapeSearch {
     };
 
     /// Fits the pose, and keeps it where it is the best so far.
-    void weigh(const Pose& pose, bool is_seed);
+    enum class From { seed, stretched, grid };
+    void weigh(const Pose& pose, From from);
     [[nodiscard]] double mean_distance(const Pose& pose) const;
-    [[nodiscard]] Pose fitted(Pose pose) const;
+    [[nodiscard]] Pose fitted(Pose pose, bool stretches) const;
     /// How much of the contour fired beyond chance, and how much beside it.
     struct Fit {
         double score;
         double chance;
     };
     [[nodiscard]] Fit fit_of(const Pose& pose) const;
+    /// Cells that fired.
+    struct Fired {
+        int on_it = 0;  ///< Of those near the contour.
+        int near_it = 0;
+    };
+    [[nodiscard]] Fired fired_near(const Pose& pose);
     [[nodiscard]] std::vector<Sample> samples(int count) const;
     void draw();
 
@@ -83,8 +91,11 @@ class ShapeSearch {
     Stage stage_ = Stage::done;
     CoarseSearch coarse_;
     std::size_t seed_next_ = 0;
+    std::size_t stretched_next_ = 0;
     std::size_t fine_next_ = 0;
     std::optional<Found> found_;
+    double highest_rank_ = 0;
+    double fired_about_ = 1;  // cells near any of the stretched poses, where there are some
 };
 
 }  // namespace pursuit::tracker

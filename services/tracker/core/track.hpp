@@ -103,6 +103,10 @@ class Track {
     [[nodiscard]] const Doubt& doubt() const { return doubt_; }
     [[nodiscard]] const Contour& contour() const { return contour_; }
     [[nodiscard]] bool has_fixed_scale() const { return transform_ == TransformKind::isometry; }
+    [[nodiscard]] bool may_stretch() const {
+        return transform_ == TransformKind::paper_affine ||
+               transform_ == TransformKind::full_affine;
+    }
 
     // For Occlusion, every few ms.
     [[nodiscard]] const Silhouette& silhouette() const { return silhouette_; }

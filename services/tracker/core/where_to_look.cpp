@@ -2,6 +2,7 @@
 #include "services/tracker/core/where_to_look.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,6 +18,7 @@ constexpr double farthest_reach_px = 80;
 constexpr double near_angle_rad = 0.6;
 constexpr double near_log_scale = 0.1;
 constexpr double near_distance_px = 20;
+constexpr std::array stretches{0.75, 0.87, 1.15, 1.33};
 constexpr double any_log_scale = 0.27;
 constexpr double any_distance_px = 1e6;
 constexpr double uncertain_share_of_lost = 0.3;
@@ -62,6 +64,30 @@ SearchRange range_of_check(std::int64_t t_us, const Coast& own, const Doubt& dou
         range.around.a = rotation(theta_rad(own.pose.a) - theta_rad(known.a)) * known.a;
     }
     return range;
+}
+
+std::vector<Pose> stretched_poses(const Contour& contour, const Pose& own) {
+    Eigen::Array2d least = Eigen::Array2d::Zero();
+    Eigen::Array2d most = least;
+    for (const Piece& piece : contour.pieces().pieces()) {
+        for (const Eigen::Array2d& m :
+             {Eigen::Array2d(piece.ax, piece.ay), Eigen::Array2d(piece.bx, piece.by)}) {
+            least = least.min(m);
+            most = most.max(m);
+        }
+    }
+    std::vector<Pose> poses;
+    for (int axis = 0; axis < 2; ++axis) {
+        for (const double by : stretches) {
+            for (const double end_px : {least(axis), 0.0, most(axis)}) {
+                Pose pose = own;
+                pose.a.col(axis) *= by;
+                pose.t_px += (own.a.col(axis) - pose.a.col(axis)) * end_px;
+                poses.push_back(pose);
+            }
+        }
+    }
+    return poses;
 }
 
 Doubt::Finding compare(const Contour& contour, const std::optional<ShapeSearch::Found>& found,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "services/common/event.hpp"
 #include "services/tracker/core/coast.hpp"
@@ -18,6 +19,10 @@ namespace pursuit::tracker {
 /// there: with the wrong edges an estimator may have stretched it to what it holds on to.
 SearchRange range_of_check(std::int64_t t_us, const Coast& own, const Doubt& doubt,
                            const Pose& known, double coast_s);
+
+/// A pose as it would be were the contour stretched or pressed along one of its axes, with one of
+/// its ends where it is: an affine estimator that held on to some of the edges may have done that.
+std::vector<Pose> stretched_poses(const Contour& contour, const Pose& own);
 
 /// What such a search says. `checked`: where the object was thought to be, and how much of the
 /// contour that place explains.

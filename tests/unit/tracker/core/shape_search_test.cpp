@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "services/tracker/core/tracker.hpp"
+#include "services/tracker/core/where_to_look.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
 
 namespace pursuit::tracker {
@@ -205,6 +206,45 @@ TEST(Search, finds_a_registered_shape_that_enters_and_then_follows_it) {
     EXPECT_GT(found_us, 0);
     EXPECT_LT(found_us, 300'000);
     EXPECT_LT(test::rms_px(arrow, poses.rows.back().record.pose, truth(8e5)), 1);
+}
+
+TEST(ShapeSearch, of_a_check_finds_a_shape_from_one_stretched_over_some_of_its_edges) {
+    // An H, of which a larger or smaller one lies on the upper rim and some other edges as well.
+    const Shape h = test::polygon("H", {{-25, -30},
+                                        {-11, -30},
+                                        {-11, -7},
+                                        {11, -7},
+                                        {11, -30},
+                                        {25, -30},
+                                        {25, 30},
+                                        {11, 30},
+                                        {11, 7},
+                                        {-11, 7},
+                                        {-11, 30},
+                                        {-25, 30}});
+    const Contour contour(h);
+    for (const double by : {0.7, 0.8, 0.9, 1.12, 1.25, 1.4}) {
+        const Pose truth = pose_of(150, 120, 0.3, 1.1, 0.9);
+        Pose own = truth;
+        own.a.col(1) *= by;
+        own.t_px += (truth.a.col(1) - own.a.col(1)) * -30;
+        SearchRange range;
+        range.around = own;
+        range.reach_px = 30;
+        range.angle_rad = 0.5;
+        range.usual_distance_px = 15;
+        range.is_check = true;
+        range.seeds = {own};
+        range.stretched = stretched_poses(contour, own);
+        FiredMap map;
+        map.build(small_sensor, fired(h, truth, 30, 1));
+        ShapeSearch search{contour};
+        search.begin(map, range);
+        while (!search.is_done()) search.step(1000);
+        ASSERT_TRUE(search.found()) << by;
+        EXPECT_LT(test::rms_px(h, search.found()->pose, truth), 2) << by;
+        EXPECT_GT(search.explained(search.found()->pose), search.explained(own)) << by;
+    }
 }
 
 }  // namespace

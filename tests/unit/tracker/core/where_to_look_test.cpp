@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/tracker/core/scene.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
@@ -53,6 +55,27 @@ TEST(WhereToLook, is_by_turns_for_a_shape_as_drawn_out_as_it_was_when_it_was_las
     EXPECT_EQ(second.around.t_px, own.pose.t_px);
     EXPECT_LT((second.around.a - 1.1 * rotation(0.9)).norm(), 1e-12);
     EXPECT_EQ(second.seeds.front(), own.pose);
+}
+
+TEST(WhereToLook, is_also_where_a_stretched_shape_would_keep_its_middle_or_one_of_its_ends) {
+    const Contour contour(test::polygon("box", {{-20, -30}, {20, -30}, {20, 30}, {-20, 30}}));
+    const Pose own = pose_of(100, 90, 0.7, 1.1, 0.8);
+    const std::vector<Pose> poses = stretched_poses(contour, own);
+    EXPECT_EQ(poses.size(), 24U);
+    for (const Pose& pose : poses) {
+        const int axis = (pose.a.col(0) - own.a.col(0)).norm() > 1e-9 ? 0 : 1;
+        const double by = pose.a.col(axis).norm() / own.a.col(axis).norm();
+        EXPECT_TRUE(by > 0.7 && by < 1.4 && std::abs(by - 1) > 0.1) << by;
+        EXPECT_LT((pose.a.col(1 - axis) - own.a.col(1 - axis)).norm(), 1e-12);
+        int kept = 0;
+        for (const double end_px : {-1.0, 0.0, 1.0}) {
+            const double m = end_px * (axis == 0 ? 20 : 30);
+            const Eigen::Vector2d before = own.t_px + own.a.col(axis) * m;
+            const Eigen::Vector2d after = pose.t_px + pose.a.col(axis) * m;
+            kept += (after - before).norm() < 1e-9 ? 1 : 0;
+        }
+        EXPECT_EQ(kept, 1);
+    }
 }
 
 }  // namespace
