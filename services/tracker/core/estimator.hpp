@@ -76,6 +76,9 @@ class Estimator {
     virtual void stand_still() {}
     /// Whether what comes near the object is noise alone: it makes no events of its own.
     [[nodiscard]] virtual bool sees_noise_alone() const { return false; }
+    /// Whether among strong noise the object shows where it is thought to be, plainly or not, and
+    /// nothing nearby does better.
+    [[nodiscard]] virtual bool is_seen_here() const { return false; }
     /// Whether among strong noise the object was looked for nearby and plainly is where it is
     /// thought to be.
     [[nodiscard]] virtual bool stands_out() const { return false; }

@@ -55,13 +55,14 @@ class Grip {
     [[nodiscard]] int sharp() const { return sharp_; }
     [[nodiscard]] int astray() const { return astray_; }
 
-    /// Weighs what was counted, the last at this time; is_noise: noise alone comes.
-    void weigh(std::int64_t t_us, bool is_noise, double let_go_sharpness) {
+    /// Weighs what was counted, the last at this time; is_noise: noise alone comes; is_seen: it
+    /// shows here among noise that hides most of its events.
+    void weigh(std::int64_t t_us, bool is_noise, bool is_seen, double let_go_sharpness) {
         health_.count(sharp_, sharp_ + astray_, t_us, is_noise);
         sharp_ = astray_ = 0;
         const std::int64_t dt_us = std::clamp<std::int64_t>(t_us - weighed_us_, 0, longest_step_us);
         weighed_us_ = t_us;
-        const bool is_against = !is_noise && health_.is_settled() &&
+        const bool is_against = !is_noise && !is_seen && health_.is_settled() &&
                                 health_.is_against(let_go_sharpness, cover_.share());
         if (!is_against && against_us_ == 0) return;
         against_us_ = std::max<std::int64_t>(against_us_ + (is_against ? dt_us : -2 * dt_us), 0);

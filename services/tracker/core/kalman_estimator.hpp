@@ -54,6 +54,7 @@ class KalmanEstimator : public Estimator {
     [[nodiscard]] bool sees_noise_alone() const override {
         return watch_.is_on() ? watch_.is_unseen() : clutter_.is_noise_alone();
     }
+    [[nodiscard]] bool is_seen_here() const override { return watch_.is_seen_here(); }
     [[nodiscard]] bool stands_out() const override { return watch_.is_sure(); }
     [[nodiscard]] bool is_swamped() const override { return clutter_.is_swamped(); }
     [[nodiscard]] const Pose& pose() const override { return filter_.pose(); }

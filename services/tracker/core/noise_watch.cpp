@@ -39,7 +39,7 @@ constexpr double plain_share = 0.5;
 
 void NoiseWatch::restart(const Pose& pose, const Velocity& velocity) {
     start_ = held_ = {0, pose, velocity};
-    is_on_ = is_sighted_ = is_confirmed_ = false;
+    is_on_ = is_sighted_ = is_confirmed_ = is_seen_here_ = false;
     looks_ = plain_looks_ = sighted_looks_ = 0;
     is_creeping_ = false;
     began_us_ = -1;
@@ -76,6 +76,7 @@ std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter,
     tell_noise(clutter, extent_px < Lookout::most_extent_px ? visible_share : 0);
     if (!is_on_) return std::nullopt;
     if (!was_on) {
+        is_seen_here_ = false;
         lookout_.restart();
         slow_.restart();
         lookout_.look(own, gyration_px, extent_px, false);
@@ -95,6 +96,7 @@ std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter,
     const bool everywhere = plain_looks_ == 0 || looks_ % looks_everywhere == 0;
     const Lookout::Sight sight = lookout_.look(own, gyration_px, extent_px, everywhere);
     const double own_z = sight.own_z;
+    is_seen_here_ = own_z > still_here_z && !sight.instead;
     plain_looks_ = own_z > plain_z && !sight.instead ? plain_looks_ + 1 : 0;
     if (++looks_ < first_looks) return std::nullopt;
     if (clutter.own_share() > plain_share) {

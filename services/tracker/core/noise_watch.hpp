@@ -32,6 +32,8 @@ class NoiseWatch {
     [[nodiscard]] bool is_on() const { return is_on_; }
     /// Whether it is to be held where it is.
     [[nodiscard]] bool is_unseen() const { return is_on_ && !is_sighted_; }
+    /// Whether it shows where it is thought to be, plainly or not, and nothing nearby does better.
+    [[nodiscard]] bool is_seen_here() const { return is_on_ && is_confirmed_ && is_seen_here_; }
     /// Whether it stands out plainly, has done so for a while, and nothing else does better.
     [[nodiscard]] bool is_sure() const { return is_on_ && plain_looks_ >= sure_looks; }
 
@@ -63,8 +65,9 @@ class NoiseWatch {
     bool is_on_ = false;
     bool is_sighted_ = false;
     bool is_confirmed_ = false;
-    bool is_creeping_ = false;  // where it is held
-    double noise_hz_ = 0;       // when it was steady
+    bool is_seen_here_ = false;  // as of the last look
+    bool is_creeping_ = false;   // where it is held
+    double noise_hz_ = 0;        // when it was steady
     int looks_ = 0;
     int plain_looks_ = 0;    // in turn
     int sighted_looks_ = 0;  // since it was put there

@@ -172,7 +172,7 @@ void Track::lose_grip(std::int64_t t_us) {
 void Track::weigh(std::int64_t t_us) {
     const bool is_noise = estimator_->sees_noise_alone();
     vanishing_.count_own(t_us, grip_.sharp(), grip_.astray());
-    grip_.weigh(t_us, is_noise, parameters_.let_go_sharpness);
+    grip_.weigh(t_us, is_noise, estimator_->is_seen_here(), parameters_.let_go_sharpness);
     if (grip_.is_against()) doubted_us_ = t_us;
     const Health& health = grip_.health();
     if (parameters_.let_go_sharpness > 0 && grip_.is_lost()) {

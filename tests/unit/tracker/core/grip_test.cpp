@@ -11,10 +11,11 @@ namespace {
 constexpr double let_go = 0.33;
 
 /// 10,000 events a second until then, every `sharp_of`-th of them on the contour.
-void hold_grip(Grip& grip, std::int64_t from_us, std::int64_t until_us, int sharp_of) {
+void hold_grip(Grip& grip, std::int64_t from_us, std::int64_t until_us, int sharp_of,
+               bool is_seen = false) {
     for (std::int64_t t_us = from_us, i = 0; t_us < until_us; t_us += 100, ++i) {
         grip.count(i % sharp_of == 0);
-        if (grip.is_due()) grip.weigh(t_us, false, let_go);
+        if (grip.is_due()) grip.weigh(t_us, false, is_seen, let_go);
     }
 }
 
@@ -32,6 +33,16 @@ TEST(Grip, is_lost_when_events_have_spoken_against_the_pose_for_60_ms) {
     }
     EXPECT_NEAR(static_cast<double>(lost_us - against_us), 60'000, 2000);
     EXPECT_LT(grip.fit(), 0.3);
+}
+
+TEST(Grip, is_not_lost_while_the_object_is_seen_among_noise) {
+    Grip grip{Contour(test::arrow())};
+    hold_grip(grip, 0, 200'000, 1);
+    hold_grip(grip, 200'000, 500'000, 5, true);
+    EXPECT_FALSE(grip.is_against());
+    EXPECT_LT(grip.fit(), 0.3);
+    hold_grip(grip, 500'000, 600'000, 5);
+    EXPECT_TRUE(grip.is_lost());
 }
 
 TEST(Grip, forgives_when_it_is_told_to) {
@@ -52,7 +63,7 @@ TEST(Grip, waits_for_some_events_before_it_weighs_them) {
     EXPECT_TRUE(grip.is_due());
     EXPECT_EQ(grip.sharp(), Grip::together / 2 + 1);
     EXPECT_EQ(grip.astray(), Grip::together / 2 - 1);
-    grip.weigh(0, false, let_go);
+    grip.weigh(0, false, false, let_go);
     EXPECT_FALSE(grip.is_counting());
 }
 

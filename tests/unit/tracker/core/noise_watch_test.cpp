@@ -198,6 +198,26 @@ TEST(NoiseWatch, goes_with_an_object_that_creeps) {
     }
 }
 
+TEST(NoiseWatch, keeps_what_goes_slowly_after_it_went_fast) {
+    const Shape shape = test::arrow();
+    const auto truth = [](double t_us) {
+        const double slow_s = std::max(t_us * 1e-6 - 0.3, 0.0);
+        const double fast_s = t_us * 1e-6 - slow_s;
+        return pose_of(80 + 250 * fast_s + 15 * slow_s, 120, 0.3 + 0.6 * slow_s);
+    };
+    Tracker tracker = test::that_follows_an_arrow(truth(0));
+    test::Poses poses;
+    // Most of what is on its contour is noise from then on.
+    tracker.process(outline_events(shape, truth, 0, 900'000, 2 * moving_per_ms, noise_per_ms(60),
+                                   small_sensor, 12),
+                    poses);
+    for (const auto& row : poses.rows) {
+        const auto t_us = static_cast<double>(row.record.t_us);
+        EXPECT_EQ(row.record.state, TrackState::tracking) << t_us;
+        EXPECT_LT(rms_px(shape, row.record.pose, truth(t_us)), 2) << t_us;
+    }
+}
+
 TEST(NoiseWatch, takes_nothing_that_stood_out_before_a_silence_for_sure_after_it) {
     const Shape shape = test::arrow();
     const auto truth = [](double t_us) { return pose_of(60 + 180e-6 * t_us, 120, 0.3); };
