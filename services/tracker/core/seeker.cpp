@@ -261,6 +261,9 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
     const std::size_t pixels = columns * (static_cast<std::size_t>(box.bottom - box.top) + 2);
     if (fired_us_.size() < pixels) fired_us_.resize(pixels, never_us);
     looked_at_.clear();
+    neighbours_.clear();
+    chance_.begin(box.right - box.left, box.bottom - box.top);
+    std::int64_t first_us = t_us;
     // Forwards, as they came: supported by a neighbour that fired shortly before.
     const std::int64_t since_us = std::max(t_us - look_.window_us, range.since_us);
     last_.for_each_in(box, since_us, [&](const Event& event) {
@@ -269,19 +272,34 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
         const auto fired_since = [&](std::size_t pixel) {
             return event.t_us - fired_us_[pixel] < look_.neighbour_us;
         };
-        bool is_supported = fired_since(at - 1) || fired_since(at + 1);
+        int neighbours = fired_since(at - 1) + fired_since(at + 1);
         for (const std::size_t row : {at - columns, at + columns}) {
-            is_supported |= fired_since(row - 1) || fired_since(row) || fired_since(row + 1);
+            neighbours += fired_since(row - 1) + fired_since(row) + fired_since(row + 1);
         }
+        if (fired_us_[at] == never_us) chance_.add(event.x - box.left, event.y - box.top);
         fired_us_[at] = event.t_us;
         looked_at_.push_back(at);
-        if (!is_supported || !is_in_reach(event) || is_of_cover(event)) return;
+        first_us = std::min(first_us, event.t_us);
+        if (neighbours == 0 || !is_in_reach(event) || is_of_cover(event)) return;
         gathered_.push_back(event);
+        neighbours_.push_back(static_cast<std::uint8_t>(neighbours));
     });
     for (const std::size_t pixel : looked_at_) fired_us_[pixel] = never_us;
+    // (A check looks over little of the image, mostly the object itself.)
+    if (!is_check_) leave_out_noise(static_cast<double>(t_us - first_us));
     if (gathered_.size() > count) {
         gathered_.erase(gathered_.begin(), gathered_.end() - static_cast<std::ptrdiff_t>(count));
     }
+}
+
+void Seeker::leave_out_noise(double over_us) {
+    const int least = chance_.least_neighbours(over_us, static_cast<double>(look_.neighbour_us));
+    if (least == 1) return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < gathered_.size(); ++i) {
+        if (neighbours_[i] >= least) gathered_[kept++] = gathered_[i];
+    }
+    gathered_.resize(kept);
 }
 
 bool Seeker::is_of_cover(const Event& event) const {

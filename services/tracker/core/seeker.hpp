@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/common/event.hpp"
+#include "services/tracker/core/chance_support.hpp"
 #include "services/tracker/core/chase.hpp"
 #include "services/tracker/core/fired_map.hpp"
 #include "services/tracker/core/last_events.hpp"
@@ -69,6 +70,9 @@ class Seeker {
     [[nodiscard]] double mean_age_us(std::int64_t t_us) const;
     /// The last `count` events that have a neighbour in space and time, in reach of the range.
     void gather(std::int64_t t_us, const SearchRange& range, double radius_px, std::size_t count);
+    /// Of the gathered, those with no more neighbours than noise has that was looked at for so
+    /// long.
+    void leave_out_noise(double over_us);
     [[nodiscard]] static std::size_t wanted_events(const Track& track, double times);
 
     /// What lies over the object that is checked: whatever comes from there is not of the object.
@@ -82,6 +86,8 @@ class Seeker {
     Chase chase_;
     bool is_chasing_ = false;  // what the search has found
     std::vector<Event> gathered_;
+    std::vector<std::uint8_t> neighbours_;  // that fired shortly before, of each gathered
+    ChanceSupport chance_;
     std::vector<std::int64_t> fired_us_;  // by pixel looked at, while gathering; never in between
     std::vector<Over> over_;
     std::vector<std::size_t> looked_at_;  // the pixels
