@@ -194,8 +194,11 @@ void Seeker::end_check(std::int64_t t_us, Track& track) {
     Doubt::Finding finding =
         compare(track.contour(), search_.found(), checked_.pose, search_.score_of(checked_.pose));
     if (finding.is_told && !finding.is_here) {
-        finding.gain += explained_weight * (search_.explained(search_.found()->pose) -
-                                            search_.explained(checked_.pose));
+        const double more =
+            search_.explained(search_.found()->pose) - search_.explained(checked_.pose);
+        finding.gain += explained_weight * more;
+        // A short one lies on some edges the more easily, and leaves others to nobody.
+        if (track.may_stretch() && more < 0) finding.is_told = finding.is_sure = false;
         if (!going_) finding.gain -= more_as_it_goes();
     }
     if (!track.take_finding(t_us, finding)) return;

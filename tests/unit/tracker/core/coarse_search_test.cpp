@@ -15,7 +15,7 @@
 namespace pursuit::tracker {
 namespace {
 
-constexpr double radius_px = 40;
+constexpr double shape_radius_px = 40;
 
 /// Points along an outline that no turn maps onto itself.
 std::vector<Eigen::Vector2d> samples_px() {
@@ -23,13 +23,13 @@ std::vector<Eigen::Vector2d> samples_px() {
     for (int i = 0; i < CoarseSearch::points; ++i) {
         const double angle_rad = 2 * std::numbers::pi * i / CoarseSearch::points;
         const double r_px =
-            radius_px * (0.55 + 0.45 * std::cos(angle_rad) * std::sin(angle_rad / 2));
+            shape_radius_px * (0.55 + 0.45 * std::cos(angle_rad) * std::sin(angle_rad / 2));
         samples.emplace_back(r_px * std::cos(angle_rad), r_px * std::sin(angle_rad));
     }
     return samples;
 }
 
-constexpr double length_px = 2 * std::numbers::pi * 0.6 * radius_px;
+constexpr double shape_length_px = 2 * std::numbers::pi * 0.6 * shape_radius_px;
 
 FiredMap map_of(const std::vector<Pose>& poses, int noise, std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -63,7 +63,8 @@ double z_of(const FiredMap& map, const Pose& pose) {
     const int column = static_cast<int>(pose.t_px.x());
     const int row = static_cast<int>(pose.t_px.y());
     const double scale = std::sqrt(pose.a.determinant());
-    const auto around = map.around(column, row, static_cast<int>(0.8 * radius_px * scale) + 2);
+    const auto around =
+        map.around(column, row, static_cast<int>(0.8 * shape_radius_px * scale) + 2);
     double sum = 0;
     for (const Eigen::Vector2d& sample_px : samples_px()) {
         const Eigen::Vector2d d_px = pose.a * sample_px;
@@ -75,7 +76,7 @@ double z_of(const FiredMap& map, const Pose& pose) {
 }
 
 std::vector<Pose> found(const FiredMap& map, const SearchRange& range, int slice = 1'000'000) {
-    CoarseSearch search(samples_px(), radius_px, length_px);
+    CoarseSearch search(samples_px(), shape_radius_px, shape_length_px);
     search.begin(map, range);
     while (!search.is_done()) {
         int poses = slice;
