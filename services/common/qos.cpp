@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/common/qos.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 #include "services/common/topics.hpp"
@@ -72,11 +73,12 @@ dds::DataWriterQos writer_qos(Flow flow, std::uint32_t heartbeat_ms) {
     auto& times = qos.reliable_writer_qos().times;
     times.heartbeatPeriod = {static_cast<std::int32_t>(period_ns / 1'000'000'000ULL),
                              static_cast<std::uint32_t>(period_ns % 1'000'000'000ULL)};
-    // With 0, the default, every write wakes a thread that then contends for the writer's lock: at
-    // a thousand poses a second a fifth of the tracker's time. Who has just been sent a sample
-    // cannot miss it for so long; then its request is answered at once, and not after 5 ms, the
-    // default.
-    times.nackSupressionDuration = {0, 5'000'000};
+    // With 0, the default, every write wakes a thread that then contends for the writer's lock
+    // (13,600 futex calls a second at 2000 poses/s, 3,400 with 5 ms). Who has just been sent a
+    // sample cannot miss it for so long: a part of what it waits for the next heartbeat. Then its
+    // request is answered at once, and not after 5 ms, the default.
+    times.nackSupressionDuration = {
+        0, static_cast<std::uint32_t>(std::min<std::uint64_t>(period_ns / 4, 5'000'000))};
     times.nackResponseDelay = {0, 0};
     return qos;
 }

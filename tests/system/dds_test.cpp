@@ -11,6 +11,7 @@
 #include "services/common/request_client.hpp"
 #include "services/common/request_server.hpp"
 #include "tests/system/free_domain.hpp"
+#include "tests/system/raw_samples.hpp"
 #include "tests/system/real_traffic.hpp"
 
 namespace pursuit {
@@ -71,6 +72,35 @@ TEST_F(Dds, counts_a_sample_with_an_unknown_enum_value_and_goes_on) {
     ASSERT_TRUE((*writer)->write(pose));
     ASSERT_TRUE(eventually([&] { return received == 1; }));
     EXPECT_EQ(two_->counts().malformed->load(), 1U);
+}
+
+TEST_F(Dds, counts_each_malformed_sample_of_a_keyed_topic_once_and_goes_on) {
+    std::atomic<int> received{0};
+    auto reader =
+        Reader<v1::ObjectPose>::create(*two_, topic::poses, [&](auto&, auto&) { ++received; });
+    auto topic = one_->topic(topic::poses, eprosima::fastdds::dds::TypeSupport(new testing::RawType(
+                                               "pursuit::v1::ObjectPose", true)));
+    ASSERT_TRUE(reader && topic);
+    auto qos = writer_qos(Flow::poses, 20);
+    qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
+    auto* writer = one_->publisher().create_datawriter(*topic, qos);
+    ASSERT_NE(writer, nullptr);
+    ASSERT_TRUE(eventually([&] { return (*reader)->matched() == 1; }));
+    std::uint64_t sent = 0;
+    for (auto& sample : testing::malformed_samples()) {
+        ASSERT_TRUE(writer->write(&sample));
+        ++sent;
+        EXPECT_TRUE(eventually([&] { return two_->counts().malformed->load() >= sent; })) << sent;
+    }
+    EXPECT_EQ(two_->counts().malformed->load(), sent);
+    auto good = join(domain_.settings());
+    auto pose_writer = Writer<v1::ObjectPose>::create(*good, topic::poses);
+    ASSERT_TRUE(eventually([&] { return (*pose_writer)->matched() == 1; }));
+    v1::ObjectPose pose;
+    pose.object_id(1);
+    ASSERT_TRUE((*pose_writer)->write(pose));
+    EXPECT_TRUE(eventually([&] { return received == 1; }));
+    EXPECT_EQ(two_->counts().malformed->load(), sent);
 }
 
 TEST_F(Dds, a_reader_in_the_default_partition_hears_a_sensor_with_a_name) {

@@ -6,68 +6,18 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fastdds/dds/core/status/PublicationMatchedStatus.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
-#include <random>
 #include <thread>
-#include <vector>
+#include <utility>
 
 #include "services/common/participant.hpp"
 #include "services/common/qos.hpp"
 #include "services/common/topics.hpp"
+#include "tests/system/raw_samples.hpp"
 
-namespace {
-
-using Bytes = std::vector<unsigned char>;
-
-/// A type that is nothing but its bytes.
-class RawType : public eprosima::fastdds::dds::TopicDataType {
- public:
-    explicit RawType(const char* name) {
-        setName(name);
-        m_typeSize = 70000;
-        m_isGetKeyDefined = false;
-        auto_fill_type_information(false);
-        auto_fill_type_object(false);
-    }
-    bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override {
-        const auto& bytes = *static_cast<Bytes*>(data);
-        std::memcpy(payload->data, bytes.data(), bytes.size());
-        payload->length = static_cast<std::uint32_t>(bytes.size());
-        return true;
-    }
-    bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t*, void*) override {
-        return false;
-    }
-    std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-        return [data] { return static_cast<std::uint32_t>(static_cast<Bytes*>(data)->size()); };
-    }
-    void* createData() override { return new Bytes; }
-    void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
-    bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
-};
-
-std::vector<Bytes> malformed_samples() {
-    std::vector<Bytes> samples{
-        {0, 1, 0},                             // shorter than the encapsulation
-        {0, 1, 0, 0},                          // nothing behind it
-        {0, 1, 0, 0, 1},                       // cut within the first field
-        {0, 7, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8},  // an encapsulation that is not plain CDR
-        Bytes(64, 0xff),
-    };
-    std::mt19937 random(1);
-    for (int i = 0; i < 20; ++i) {
-        Bytes bytes(8 + random() % 200);
-        for (auto& byte : bytes) byte = static_cast<unsigned char>(0x80 | random());
-        bytes[0] = 0;
-        bytes[1] = static_cast<unsigned char>(2 + random() % 250);  // never a known encapsulation
-        samples.push_back(bytes);
-    }
-    return samples;
-}
-
-}  // namespace
+using pursuit::testing::malformed_samples;
+using pursuit::testing::RawType;
 
 int main(int argc, char** argv) {
     if (argc != 2) return 2;

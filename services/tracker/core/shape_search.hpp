@@ -59,8 +59,8 @@ class ShapeSearch {
         Eigen::Vector2d normal_px;  ///< Of length 1.
     };
 
-    /// Fits the pose, and keeps it where it is the best so far.
     enum class From { seed, stretched, grid };
+    /// Fits the pose, and keeps it where it is the best so far.
     void weigh(const Pose& pose, From from);
     [[nodiscard]] double mean_distance(const Pose& pose) const;
     [[nodiscard]] Pose fitted(Pose pose, bool stretches) const;
