@@ -15,6 +15,8 @@
 namespace pursuit::tracker {
 namespace {
 
+using test::anywhere;
+
 constexpr double shape_radius_px = 40;
 
 /// Points along an outline that no turn maps onto itself.
@@ -88,23 +90,18 @@ std::vector<Pose> found(const FiredMap& map, const SearchRange& range, int slice
     return best;
 }
 
-SearchRange anywhere() {
+SearchRange about(const Pose& pose, double reach_px, double angle_rad) {
     SearchRange range;
-    range.around.t_px << 152, 120;
-    range.reach_px = 304;
-    range.angle_rad = std::numbers::pi;
-    range.log_scale = 0.27;
+    range.around = pose;
+    range.reach_px = reach_px;
+    range.angle_rad = angle_rad;
     return range;
 }
 
 TEST(CoarseSearch, keeps_nothing_worse_than_any_pose_of_its_grid_looked_at_plainly) {
     const Pose truth = pose_of(117, 83, 0.9);
     const FiredMap map = map_of({truth}, 400, 1);
-    SearchRange range;
-    range.around = pose_of(120, 90, 0.6);
-    range.reach_px = 45;
-    range.angle_rad = 0.8;
-    const std::vector<Pose> best = found(map, range);
+    const std::vector<Pose> best = found(map, about(pose_of(120, 90, 0.6), 45, 0.8));
     ASSERT_FALSE(best.empty());
     // The grid: every third cell, and turns of 4 px at the rim.
     constexpr int angles = 16;  // 2 · 0.8 rad · 40 px / 4 px
@@ -165,19 +162,26 @@ TEST(CoarseSearch, keeps_the_same_however_it_is_cut_into_steps) {
     }
 }
 
-TEST(CoarseSearch, keeps_nothing_where_nothing_or_nothing_but_noise_has_fired) {
+TEST(CoarseSearch, keeps_nothing_where_nothing_has_fired) {
     EXPECT_TRUE(found(map_of({}, 0, 5), anywhere()).empty());
-    for (const Pose& pose : found(map_of({}, 3000, 6), anywhere())) {
-        EXPECT_LT(z_of(map_of({}, 3000, 6), pose), 6);
+}
+
+TEST(CoarseSearch, keeps_a_shape_among_noise_before_all_that_noise_alone_makes) {
+    const FiredMap noise = map_of({}, 3000, 6);
+    const FiredMap both = map_of({pose_of(150, 120, 0.7)}, 3000, 6);
+    double of_noise_z = 0;
+    for (const Pose& pose : found(noise, anywhere())) {
+        of_noise_z = std::max(of_noise_z, z_of(noise, pose));
     }
+    const std::vector<Pose> best = found(both, anywhere());
+    ASSERT_FALSE(best.empty());
+    EXPECT_GT(z_of(both, best.front()), of_noise_z);
+    EXPECT_LT((best.front().t_px - Eigen::Vector2d(150, 120)).norm(), 4);
 }
 
 TEST(CoarseSearch, stays_in_its_range) {
     const FiredMap map = map_of({pose_of(60, 60, 0), pose_of(240, 180, 0)}, 0, 7);
-    SearchRange range;
-    range.around = pose_of(240, 170, 0);
-    range.reach_px = 20;
-    range.angle_rad = 0.5;
+    const SearchRange range = about(pose_of(240, 170, 0), 20, 0.5);
     const std::vector<Pose> best = found(map, range);
     ASSERT_FALSE(best.empty());
     for (const Pose& pose : best) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/tracker/core/scene.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
@@ -12,14 +14,7 @@ constexpr double grain_px = 0.01;
 /// The events of one pixel of a square of 40 px.
 class OnePixel : public testing::Test {
  protected:
-    static Shape square() {
-        Shape shape;
-        shape.points_px = {{-20, -20}, {20, -20}, {20, 20}, {-20, 20}};
-        shape.edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
-        return shape;
-    }
-
-    OnePixel() : contour_(square()), levels_(contour_) {
+    OnePixel() : contour_(test::square()), levels_(contour_) {
         levels_.set_blind_us(0);
         levels_.restart();
     }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/tracker/core/scene.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
@@ -16,14 +18,7 @@ class QuietSquare : public testing::Test {
     using Filter = TwistFilter<TransformKind::isometry>;
     using Step = Filter::Step;
 
-    static Shape square() {
-        Shape shape;
-        shape.points_px = {{-20, -20}, {20, -20}, {20, 20}, {-20, 20}};
-        shape.edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
-        return shape;
-    }
-
-    QuietSquare() : contour_(square()), quiet_(contour_) {
+    QuietSquare() : contour_(test::square()), quiet_(contour_) {
         for (std::size_t i = 0; i < contour_.pieces().pieces().size(); ++i) {
             const Piece& piece = contour_.pieces().pieces()[i];
             const bool is_upright = piece.ax == piece.bx;

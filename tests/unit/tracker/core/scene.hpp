@@ -10,12 +10,24 @@
 #include "services/common/event.hpp"
 #include "services/tracker/core/pose_record.hpp"
 #include "services/tracker/core/registration.hpp"
+#include "services/tracker/core/search_range.hpp"
 #include "services/tracker/core/tracker.hpp"
 
 namespace pursuit::tracker::test {
 
 /// The geometry of a small sensor.
 inline constexpr Geometry small_sensor{304, 240};
+
+/// Any place, turn and size in its image.
+inline SearchRange anywhere() {
+    SearchRange range;
+    range.around.t_px << 152, 120;
+    range.reach_px = 304;
+    range.angle_rad = std::numbers::pi;
+    range.log_scale = 0.27;
+    range.usual_distance_px = 1e6;
+    return range;
+}
 
 /// Keeps what the tracker hands over.
 struct Poses : PoseSink {
@@ -50,6 +62,15 @@ inline Shape polygon(std::string name, const std::vector<Eigen::Vector2d>& corne
         shape.edges.push_back({i, static_cast<std::uint16_t>((i + 1) % count)});
     }
     return centred(shape);
+}
+
+/// A square of 40 px, a piece of contour each side.
+inline Shape square() {
+    Shape shape;
+    shape.name = "square";
+    shape.points_px = {{-20, -20}, {20, -20}, {20, 20}, {-20, 20}};
+    shape.edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+    return shape;
 }
 
 /// A circle of that many points, joined.

@@ -10,6 +10,7 @@
 namespace pursuit::tracker {
 namespace {
 
+using test::anywhere;
 using test::small_sensor;
 
 /// The outline's pixels under a pose, and `noise` pixels anywhere.
@@ -42,16 +43,6 @@ std::optional<ShapeSearch::Found> search(const Shape& shape, const std::vector<E
     search.begin(map, range);
     while (!search.is_done()) search.step(slice);
     return search.found();
-}
-
-SearchRange anywhere() {
-    SearchRange range;
-    range.around.t_px << 152, 120;
-    range.reach_px = 304;
-    range.angle_rad = std::numbers::pi;
-    range.log_scale = 0.27;
-    range.usual_distance_px = 1e6;
-    return range;
 }
 
 TEST(FiredMap, has_the_chamfer_distance_to_the_nearest_pixel_that_fired) {
