@@ -28,6 +28,11 @@ constexpr double far_malus_of_check = 0.05;
 constexpr double far_malus = 0.15;
 
 constexpr std::size_t directions = 8;
+
+// To fit a pose, and to count what fired near one, take as long as to look at so many coarsely.
+constexpr int poses_per_fit = 300;
+constexpr int poses_per_count = 600;
+
 constexpr double sideways = 0.1;  // what moves along itself still fires a little
 constexpr double hit = 1.4;       // cells: the contour fired here
 constexpr double beside = 4;      // px off the contour, where only chance has fired
@@ -100,16 +105,17 @@ void ShapeSearch::begin(const FiredMap& map, const SearchRange& range) {
     map_ = &map;
     range_ = range;
     found_.reset();
-    seed_next_ = stretched_next_ = fine_next_ = 0;
+    seed_next_ = counted_next_ = stretched_next_ = fine_next_ = 0;
     fired_about_ = 1;
-    for (const Pose& pose : range_.stretched) {
-        fired_about_ = std::max<double>(fired_about_, fired_near(pose).near_it);
-    }
     coarse_.begin(map, range);
     stage_ = Stage::coarse;
 }
 
 void ShapeSearch::step(int poses) {
+    for (; poses > 0 && counted_next_ < range_.stretched.size(); poses -= poses_per_count) {
+        const Fired fired = fired_near(range_.stretched[counted_next_++]);
+        fired_about_ = std::max<double>(fired_about_, fired.near_it);
+    }
     if (stage_ == Stage::coarse) {
         coarse_.step(poses);
         if (coarse_.is_done()) stage_ = Stage::fine;
@@ -124,7 +130,7 @@ void ShapeSearch::step(int poses) {
         } else {
             stage_ = Stage::done;
         }
-        poses -= 300;
+        poses -= poses_per_fit;
     }
 }
 

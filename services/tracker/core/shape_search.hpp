@@ -91,6 +91,7 @@ class ShapeSearch {
     Stage stage_ = Stage::done;
     CoarseSearch coarse_;
     std::size_t seed_next_ = 0;
+    std::size_t counted_next_ = 0;  // of the stretched
     std::size_t stretched_next_ = 0;
     std::size_t fine_next_ = 0;
     std::optional<Found> found_;
