@@ -14,6 +14,7 @@
 #include "services/tracker/core/contour.hpp"
 #include "services/tracker/core/contour_samples.hpp"
 #include "services/tracker/core/fired_counts.hpp"
+#include "services/tracker/core/fired_slice.hpp"
 
 namespace pursuit::tracker {
 
@@ -58,24 +59,6 @@ class SlowLookout {
     static constexpr std::size_t slices = 8;
     static constexpr std::size_t least_slices = 2;
 
-    /// What fired in 20 ms about each pixel, less the mean.
-    struct Slice {
-        int left = 0;
-        int top = 0;
-        int side = 0;
-        std::vector<std::array<float, 2>> counts;  // OFF, ON
-        double mean = 0;                           // of one of them
-
-        [[nodiscard]] std::size_t index(int row, int column) const {
-            return static_cast<std::size_t>(row * side + column);
-        }
-        void begin(const FiredCounts& fired);
-        void add(const FiredCounts& fired);
-        void close(const Eigen::Vector2d& middle_px, double radius_px);
-        void take_mean(const Eigen::Vector2d& middle_px, double radius_px);
-        void spread();
-        [[nodiscard]] std::array<double, 2> at(double x_px, double y_px) const;
-    };
     /// By whether the piece goes outwards, and polarity: what fired where an object would have
     /// gone.
     struct Sums {
@@ -105,7 +88,7 @@ class SlowLookout {
 
     std::vector<ContourSample> samples_;  // across: outwards, where there is an inside
     bool has_inside_ = false;
-    std::array<Slice, slices> slices_;  // the newest first
+    std::array<FiredSlice, slices> slices_;  // the newest first
     std::size_t filled_ = 0;
     int added_ = 0;
     std::optional<Coast> way_;  // the best, as of the last look

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "services/tracker/core/blind_parts.hpp"
-#include "services/tracker/core/where_to_look.hpp"
 
 namespace pursuit::tracker {
 namespace {
@@ -14,42 +13,10 @@ namespace {
 // How often the acquisition begins again at the coasted pose.
 constexpr std::int64_t acquisition_us = 150'000;
 
-// An offered pose that the events do not confirm in this time is none; one is asked for when the
-// acquisition has not found the object by itself in the other.
-constexpr std::int64_t trial_us = 80'000;
-constexpr std::int64_t unaided_us = 30'000;
-constexpr double trial_gate_px = 6;
-
 constexpr std::int64_t look_for_blind_every_us = 2'000;
 
 // Time goes on in larger steps where nothing happens to the object.
 constexpr std::int64_t unstirred_us = 2'000;
-
-// Where a check found too few events, the next one waits until so many came near the object, or for
-// so long: many objects that nothing moves shall not keep the searches busy.
-constexpr int worth_a_check = 16;
-constexpr std::int64_t unmoved_us = 500'000;
-
-// What is silent may have gone so far meanwhile.
-constexpr double unseen_way_px = 5;
-constexpr double checked_share = 0.7;
-constexpr int start_confirmations = 3;
-constexpr int found_confirmations = 2;
-
-// Of what shows of a moving object: below the first it is covered, above the second no more.
-constexpr double covered_share = 0.2;
-constexpr double uncovered_share = 0.22;
-
-// Longer than this a covered object is not believed to have gone on.
-constexpr double longest_covered_s = 4;
-
-constexpr std::int64_t believed_after_us = 100'000;
-
-// In silence nothing tells that the object is still there.
-constexpr double sure_s = 0.1;
-constexpr double doubt_s = 0.3;
-
-double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 
 }  // namespace
 
@@ -214,87 +181,6 @@ Pose Track::coasted(std::int64_t t_us) const {
     return good_.before().at(t_us, tracker_.coast_s).pose;
 }
 
-std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) const {
-    if (t_us < trial_until_us_) return std::nullopt;
-    if (!is_searching_ && !is_acquiring_) {
-        const bool is_told = !is_covered_ && emerged_us_ < 0 && !grip_.health().is_quiet() &&
-                             !estimator_->sees_noise_alone();
-        if (near_since_check_ < worth_a_check && t_us < unmoved_until_us_) return std::nullopt;
-        if (!is_told || !doubt_.is_due(t_us)) return std::nullopt;
-        return range_of_check(t_us, {t_us, pose(), estimator_->velocity()}, doubt_,
-                              good_.before().pose, tracker_.coast_s);
-    }
-    if (is_searching_) return range_of_image(estimator_->pose(), geometry, has_fixed_scale());
-    if (t_us - grip_lost_us_ < unaided_us) return std::nullopt;
-    const Coast& good = good_.before();
-    if (is_adrift_) {
-        const double adrift_s = adrift_since_us_ < 0 ? 0 : seconds(t_us - adrift_since_us_);
-        return range_adrift(good.pose, adrift_s, geometry, has_fixed_scale());
-    }
-    const double gap_s = seconds(t_us - good.t_us);
-    if (gap_s >= tracker_.coast_s) return range_of_image(good.pose, geometry, has_fixed_scale());
-    return range_near(good.at(t_us, tracker_.coast_s), gap_s, has_fixed_scale());
-}
-
-void Track::offer(std::int64_t t_us, const Pose& pose) {
-    stir();
-    is_acquiring_ = true;
-    trial_until_us_ = t_us + trial_us;
-    acquisition_began_us_ = t_us;
-    acquisition_->begin(constrained(pose, transform_), trial_gate_px);
-}
-
-void Track::begin_chase(const Pose& pose) {
-    is_chased_ = true;
-    acquisition_->begin(constrained(pose, transform_), trial_gate_px);
-}
-
-void Track::chase(const Event& event) {
-    if (acquisition_->approach(event) != nullptr) acquisition_->take();
-}
-
-bool Track::end_chase(std::int64_t t_us) {
-    stir();  // it takes events again
-    is_chased_ = false;
-    const bool is_here = acquisition_->is_done();
-    if (is_here) {
-        is_acquiring_ = true;
-        trial_until_us_ = t_us + trial_us;
-        acquisition_began_us_ = t_us;
-    } else if (is_acquiring_) {
-        acquisition_->begin(coasted(t_us));
-    }
-    return is_here;
-}
-
-void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocity) {
-    stir();
-    const Pose moved = constrained(pose, transform_);
-    grip_.restart(Health::good);
-    acquired_us_ = t_us;
-    if (doubt_.since_us() == emerged_at_us_) {
-        // It goes on as it did before it was hidden.
-        estimator_->resume(t_us, moved, hidden_way_.last().velocity, 0);
-    } else {
-        estimator_->restart(moved, velocity);
-    }
-    good_.set({t_us, moved, velocity});
-    vanishing_.restart();
-    // What came before the move is of the same object.
-    if (tracker_.checks_pose >= 0.5) doubt_.begin_again(t_us, found_confirmations);
-}
-
-void Track::begin_doubt(std::int64_t t_us, int confirmations, std::int64_t since_us,
-                        const std::optional<Coast>& before) {
-    if (tracker_.checks_pose >= 0.5) doubt_.begin(t_us, confirmations, since_us, before);
-}
-
-void Track::wait_to_check(std::int64_t t_us) {
-    doubt_.wait(t_us);
-    if (near_since_check_ < worth_a_check) unmoved_until_us_ = t_us + unmoved_us;
-    near_since_check_ = 0;
-}
-
 void Track::listen(std::int64_t t_us) {
     const double usual_hz = grip_.health().usual_rate_hz();
     if (emerged_us_ >= 0 || !silence_.is_silent(t_us, usual_hz)) return;
@@ -419,157 +305,5 @@ double Track::speed_px_s() const {
 }
 
 double Track::radius_px() const { return contour_.radius_px() * pose().a.norm(); }
-
-bool Track::can_hide() const {
-    return !is_searching_ && !is_acquiring_ && !is_covered_ && !silhouette_.covers_nothing() &&
-           grip_.health().is_settled();
-}
-
-bool Track::can_be_hidden() const { return !is_searching_ && !is_acquiring_; }
-
-Going Track::going() const {
-    return {pose().a, is_covered_ ? hidden_way_.last().velocity : estimator_->velocity()};
-}
-
-void Track::tally(std::int64_t t_us, bool at_once) {
-    if (!at_once && !tally_.is_due(t_us)) return;
-    tally_.begin(t_us);
-    if (is_covered_) {
-        hidden_way_.go_on(t_us, tally_.over_s(), transform_);
-        return;
-    }
-    if (is_searching_ || is_acquiring_ || !grip_.health().is_fair()) return;
-    // What neither moves nor makes events tells nothing.
-    if (!outline_.is_empty() || speed_px_s() > 0) tally_.learn(outline_, going());
-    if (visible_share_ >= UsualWay::least_seen_share && hidden_way_.is_due(t_us)) {
-        hidden_way_.learn(t_us, pose());
-    }
-}
-
-void Track::see(std::int64_t t_us) {
-    visible_share_ = going().visible_share(outline_, radius_px());
-    find_what_to_watch();
-    estimator_->set_visible_share(std::max(visible_share_, covered_share));
-    estimator_->set_usual_way(hidden_way_.usual());
-    // Held by little of its contour it may have slid along what was seen of it; unless the events
-    // have fitted ever since.
-    if (emerges_ && emerged_us_ < 0 && visible_share_ > checked_share && can_be_hidden()) {
-        emerges_ = false;
-        if (doubted_us_ >= emerged_at_us_) begin_doubt(t_us, start_confirmations, emerged_at_us_);
-    }
-    if (!is_covered_ && can_be_hidden() && visible_share_ < covered_share) cover(t_us);
-    if (is_covered_ && visible_share_ > uncovered_share) uncover(t_us);
-    if (is_covered_ && seconds(t_us - grip_lost_us_) > longest_covered_s) give_up(t_us);
-}
-
-void Track::cover(std::int64_t t_us) {
-    PoseRecord now;
-    estimator_->describe(t_us, now);
-    hidden_way_.begin({t_us, now.pose, now.velocity});
-    is_covered_ = true;
-    vanishing_.restart();
-    grip_lost_us_ = t_us;
-    grip_.forgive();
-}
-
-// It never came out again: it is looked for as one that was lost.
-void Track::give_up(std::int64_t t_us) {
-    is_covered_ = false;
-    emerged_us_ = -1;
-    good_.set(hidden_way_.last());
-    const std::int64_t covered_since_us = grip_lost_us_;
-    lose_grip(t_us);
-    grip_lost_us_ = covered_since_us;
-}
-
-void Track::show_all(std::int64_t t_us) {
-    outline_.show_all();
-    if (is_partly_hidden()) see(t_us);
-}
-
-void Track::uncover(std::int64_t t_us) {
-    stir();
-    is_covered_ = false;
-    grip_.restart(Health::good);
-    const Coast& gone = hidden_way_.last();
-    const double way_px =
-        seconds(t_us - grip_lost_us_) * std::hypot(gone.velocity.vx_px_s, gone.velocity.vy_px_s);
-    emerged_us_ = t_us;
-    emerges_ = true;
-    emerged_at_us_ = t_us;
-    estimator_->resume(t_us, gone.pose, gone.velocity, way_px);
-    good_.set({t_us, gone.pose, gone.velocity});
-}
-
-TrackState Track::state_at(std::int64_t t_us) const {
-    if (is_searching_) return TrackState::searching;
-    if (!is_acquiring_ && !is_covered_ && estimator_->is_swamped()) return TrackState::lost;
-    if (is_covered_ || (emerged_us_ >= 0 && !is_acquiring_)) return TrackState::occluded;
-    if (vanishing_.is_gone(t_us)) return TrackState::lost;
-    if (!is_acquiring_) return TrackState::tracking;
-    // Hidden by what is not tracked, its events are missing; what does not fit is something else.
-    if (does_not_fit_) return TrackState::lost;
-    return seconds(t_us - grip_lost_us_) < tracker_.coast_s ? TrackState::occluded
-                                                            : TrackState::lost;
-}
-
-double Track::confidence_at(std::int64_t t_us) const {
-    if (is_searching_ || is_acquiring_ || is_covered_ || emerged_us_ >= 0) return 0;
-    if (estimator_->is_swamped() || vanishing_.is_suspected()) return 0;
-    const double fit = grip_.fit();
-    const double silent_s = seconds(t_us - grip_.health().lively_t_us()) - sure_s;
-    const double believed = silent_s > 0 ? fit * std::exp(-silent_s / doubt_s) : fit;
-    // What was found again, or did not fit, is believed when it has fitted for a while; what is
-    // silent may have gone on meanwhile.
-    const bool is_doubted =
-        t_us - std::max(acquired_us_, doubted_us_) < believed_after_us || doubt_.is_open();
-    const bool may_be_gone = silence_.is_silent(t_us, grip_.health().usual_rate_hz()) &&
-                             silence_.lasts_s(t_us) * speed_px_s() > unseen_way_px;
-    return is_doubted || may_be_gone ? std::min(believed, 0.5) : believed;
-}
-
-PoseRecord Track::record(std::int64_t t_us) const {
-    PoseRecord record;
-    record.object_id = object_id_;
-    record.t_us = t_us;
-    record.last_event_t_us = last_event_t_us_;
-    record.model = name_;
-    record.transform = transform_;
-    record.state = state_at(t_us);
-    estimator_->describe(t_us, record);
-    if (is_acquiring_ && !is_searching_) {
-        record.pose = coasted(t_us);
-        record.velocity = good_.before().velocity;
-    }
-    if (is_covered_) {
-        record.pose = hidden_way_.pose_at(t_us);
-        record.velocity = hidden_way_.last().velocity;
-    }
-    record.theta_rad = theta_rad(record.pose.a);
-    record.scale_x = scale_x(record.pose.a);
-    record.scale_y = scale_y(record.pose.a);
-    record.confidence = static_cast<float>(confidence_at(t_us));
-    record.events_used = events_used_;
-    if (!is_searching_ && !is_acquiring_ && !is_covered_) {
-        record.event_rate_hz = static_cast<float>(grip_.health().rate_hz(t_us));
-    }
-    return record;
-}
-
-TrackSnapshot Track::snapshot() const {
-    TrackSnapshot snapshot;
-    snapshot.object_id = object_id_;
-    snapshot.state = state_at(last_event_t_us_);
-    snapshot.was_tracked = !is_searching_ && events_used_ > 0;
-    snapshot.t_us = is_acquiring_ ? good_.before().t_us : last_event_t_us_;
-    PoseRecord last;
-    estimator_->describe(last_event_t_us_, last);
-    const Coast* coast = is_covered_     ? &hidden_way_.last()
-                         : is_acquiring_ ? &good_.before()
-                                         : nullptr;
-    snapshot.pose = coast ? coast->pose : last.pose;
-    snapshot.velocity = coast ? coast->velocity : last.velocity;
-    return snapshot;
-}
 
 }  // namespace pursuit::tracker

@@ -167,7 +167,12 @@ class Track {
     [[nodiscard]] TrackState state_at(std::int64_t t_us) const;
     [[nodiscard]] double confidence_at(std::int64_t t_us) const;
 
+    static double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
+
     static constexpr std::int64_t never_us = -(std::int64_t{1} << 60);
+    // Of its place, before it is believed: at the start, and where it was found.
+    static constexpr int start_confirmations = 3;
+    static constexpr int found_confirmations = 2;
 
     std::uint32_t object_id_ = 0;
     std::string name_;
