@@ -49,6 +49,7 @@ template <TransformKind kind>
 KalmanEstimator<kind>::KalmanEstimator(const Contour& contour, const ObjectParameters& parameters)
     : contour_(contour),
       parameters_(parameters),
+      parts_(parameters),
       bend_(contour_),
       offsets_(contour_, kind),
       quiet_(contour_),
@@ -155,8 +156,15 @@ void KalmanEstimator<kind>::resume(std::int64_t t_us, const Pose& pose, const Ve
 template <TransformKind kind>
 void KalmanEstimator<kind>::set_parameters(const ObjectParameters& parameters) {
     parameters_ = parameters;
-    tells_contrast_ = parameters.tells_contrast >= 0.5;
-    learns_offsets_ = parameters.learns_offsets >= 0.5;
+    parts_ = KalmanParts(parameters);
+    // A contour that lies where events came from has their leads in it.
+    has_leads_ = parts_.leads && !contour_.is_of_events();
+    // What a part had learnt goes with it.
+    if (!parts_.steadiness) steadiness_.restart();
+    if (!parts_.measurement_noise) noise_.restart();
+    if (!parts_.noise_watch && watch_.is_on()) watch_.restart(filter_.pose(), velocity());
+    if (!parts_.offsets) offsets_.restart();
+    if (!parts_.bend) bend_.restart();
 }
 
 template <TransformKind kind>
@@ -263,7 +271,7 @@ template <TransformKind kind>
 template <TransformKind kind>
 double KalmanEstimator<kind>::lead_px(std::int32_t piece, int lead) const {
     const auto& leads_px = filter_.lead_px();
-    if (!tells_contrast_) return leads_px(lead);
+    if (!parts_.contrast) return leads_px(lead);
     const int first = lead & ~1;
     const double earlier_px =
         contrast_.earlier(piece, first / 2) * (leads_px(first) - leads_px(first + 1));
@@ -279,7 +287,7 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     const Pose& pose = filter_.pose();
     if constexpr (!keeps_its_size) lay_out();
     clutter_.reach(event.t_us);
-    if (watch_.is_due(event.t_us)) look_out(event.t_us);
+    if (parts_.noise_watch && watch_.is_due(event.t_us)) look_out(event.t_us);
     if (watch_.is_on()) watch_.see(event);
     q = Eigen::Vector2d(event.x, event.y) - pose.t_px;
     if constexpr (is_bent) {
@@ -292,22 +300,21 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     const double past_end2 = place.squared_px - place.r_px * place.r_px;
     if (past_end2 > Clutter::overshoot_px * Clutter::overshoot_px) return nullptr;
 
-    // A contour that lies where events came from has their leads in it.
     const Segment& segment = contour_.pieces().segment(place.piece);
     const int polarity = event.polarity & 1;
     double h = 0;
     std::int64_t since_us = past.since_same_us;
     measured_.settled_side = 0;
     measured_.of_polarity = 1;
-    if (!contour_.is_of_events()) {
+    if (has_leads_) {
         // Where the edge turned back it is in the midst of the pixels that made its last events.
         // (As of the piece's last event: which lead it is shall not wait for the way since.)
         if (backlash_.has_turned(place.piece)) since_us = std::min(since_us, past.since_other_us);
         const Eigen::Vector2d middle(segment.ax + segment.dx / 2, segment.ay + segment.dy / 2);
         const double side = backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
         const auto told = edge_polarity_.tell(place.piece, polarity, side);
-        h = told.gone;
-        measured_.of_polarity = told.likelihood;
+        h = parts_.polarity ? told.gone : side;
+        if (parts_.polarity) measured_.of_polarity = told.likelihood;
         if (backlash_.is_settled(place.piece)) measured_.settled_side = side;
     }
     const bool subsequent = static_cast<double>(since_us) < same_edge_us_;
@@ -316,7 +323,7 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     double ahead_px = 0;
     bool is_late = false;
     // Where it goes on as it went, its velocity says how far since the pixel fired.
-    measured_.has_way = measured_.settled_side != 0 && std::abs(h) > 0.9;
+    measured_.has_way = parts_.trail && measured_.settled_side != 0 && std::abs(h) > 0.9;
     if (measured_.has_way) {
         const auto ago_us = static_cast<double>(std::min(past.since_same_us, past.since_other_us));
         measured_.way_px = 1e-6 * ago_us * std::abs(j.dot(filter_.twist()));
@@ -344,7 +351,9 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     measured_.place_px = place.r_px;
     measured_.along = j;
     measured_.told = noise_.at(r_px, measured_.row.h_p_h, subsequent || is_late);
-    near_ = {r_px * r_px, clutter_.density(place.piece, r_px), r_px * r_px, place.piece};
+    const double clutter =
+        parts_.clutter ? clutter_.density(place.piece, r_px) : KalmanParts::usual_clutter;
+    near_ = {r_px * r_px, clutter, r_px * r_px, place.piece};
     return &near_;
 }
 
@@ -374,8 +383,7 @@ bool KalmanEstimator<kind>::take(double weight) {
     if (watch_.is_on()) {
         const double doubt = (1 / share - 1) * r * r * per_variance;
         filter_.correct(measured_.row, r, per_variance, 1 - doubt);
-    } else if (share > level_share && measured_.has_side && !contour_.is_of_events() &&
-               levels_.tell_at(speed_px_s_)) {
+    } else if (share > level_share && measured_.has_side && uses_levels()) {
         correct_by_level(weight * share, per_variance);
     } else {
         filter_.correct(measured_.row, r, per_variance);
@@ -383,7 +391,10 @@ bool KalmanEstimator<kind>::take(double weight) {
     filter_.limit_leads(least_lead_px, most_lead_px);
     if constexpr (!keeps_its_size) measure_size();
     if constexpr (is_bent) {
-        bend_.correct(measured_.along_bend, r, measured_.row.h_p_h + told.variance_px2(), share);
+        if (parts_.bend) {
+            bend_.correct(measured_.along_bend, r, measured_.row.h_p_h + told.variance_px2(),
+                          share);
+        }
     }
     learn(r, share);
     most_pose_sigma_px_ =
@@ -423,9 +434,9 @@ template <TransformKind kind>
 [[gnu::always_inline]] inline void KalmanEstimator<kind>::learn(double r_px, double share) {
     clock_.count(share);
     quiet_.hear(near_.piece, share);
-    noise_.learn(r_px, measured_.told, share);
+    if (parts_.measurement_noise) noise_.learn(r_px, measured_.told, share);
     residual_px_ += 0.01 * share * (std::abs(r_px) - residual_px_);
-    if (learns_offsets_ && measured_.has_side) offsets_.learn(near_.piece, r_px, share);
+    if (parts_.offsets && measured_.has_side) offsets_.learn(near_.piece, r_px, share);
     if (std::abs(measured_.settled_side) >= 1) {
         edge_polarity_.learn(near_.piece, measured_.lead / 2, measured_.settled_side, share);
     }
@@ -433,7 +444,7 @@ template <TransformKind kind>
     if (measured_.has_way) {
         trail_.learn(measured_.lead, measured_.way_px, r_px * measured_.gone, share);
     }
-    if (lead_prior_.count(measured_.lead, share)) tell_leads();
+    if (lead_prior_.count(measured_.lead, share) && parts_.lead_physics) tell_leads();
 }
 
 template <TransformKind kind>

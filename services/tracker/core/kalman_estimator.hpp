@@ -9,6 +9,7 @@
 #include "services/tracker/core/edge_polarity.hpp"
 #include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/event_clock.hpp"
+#include "services/tracker/core/kalman_parts.hpp"
 #include "services/tracker/core/lead_prior.hpp"
 #include "services/tracker/core/measurement_noise.hpp"
 #include "services/tracker/core/noise_watch.hpp"
@@ -98,6 +99,10 @@ class KalmanEstimator : public Estimator {
     void go_as_usual(double dt_s, Step& noise);
     /// What the filter knows, dt_s after it was told last.
     void spread(double dt_s);
+    /// Whether the levels that pixels cross tell where the edges are, as fast as it goes.
+    [[nodiscard]] bool uses_levels() const {
+        return parts_.levels && has_leads_ && levels_.tell_at(speed_px_s_);
+    }
     /// Of the contour, as the filter has it, in the mean; squared.
     [[nodiscard]] double own_speed2() const {
         return filter_.twist().template head<2>().squaredNorm() +
@@ -147,6 +152,8 @@ class KalmanEstimator : public Estimator {
 
     Contour contour_;
     ObjectParameters parameters_;
+    KalmanParts parts_;
+    bool has_leads_ = true;
     Filter filter_;
     Steadiness<M::dof> steadiness_;
     Size size_;
@@ -175,8 +182,6 @@ class KalmanEstimator : public Estimator {
     double spread_after_s_ = 0;   // to be again
     double silent_way2_px2_ = 0;  // of it, squared
     double same_edge_us_ = 0;     // a pixel's events of one edge follow each other within
-    bool tells_contrast_ = true;
-    bool learns_offsets_ = true;
     double residual_px_ = 0.5;
     double sampled_for_area_ = 0;
     std::int64_t t_us_ = -1;  // of the state; -1: before the first event

@@ -35,8 +35,8 @@ void KalmanEstimator<kind>::spread(double dt_s) {
         clock_.begin_way();
         way_begin_ = pose;
     }
-    const double told_px_s = clock_.speed_px_s(length_px);
     const double own_px_s = std::sqrt(own_speed2());
+    const double told_px_s = parts_.event_clock ? clock_.speed_px_s(length_px) : own_px_s;
     const double at_most = std::max(std::min(own_px_s, 2 * told_px_s), told_px_s);
     set_speed(std::sqrt(at_most * at_most + still_px_s * still_px_s));
     // What shows of it by half tells by half where it turns.
@@ -48,10 +48,11 @@ void KalmanEstimator<kind>::spread(double dt_s) {
     if constexpr (kind == TransformKind::full_affine) noise.template tail<4>() *= 0.7 * 0.7;
     // What turns back and forth may turn more than usual. (Of others what the model is wrong by
     // would be taken for turning.)
-    const double most_share =
-        levels_.tell_at(speed_px_s_) ? 1 + turns_back * levels_.crossed_again() : 1;
-    steadiness_.go(speed_px_s_ * dt_s, M::omega(filter_.twist()) * dt_s, filter_.twist(),
-                   noise * dt_s, most_share);
+    const double most_share = uses_levels() ? 1 + turns_back * levels_.crossed_again() : 1;
+    if (parts_.steadiness) {
+        steadiness_.go(speed_px_s_ * dt_s, M::omega(filter_.twist()) * dt_s, filter_.twist(),
+                       noise * dt_s, most_share);
+    }
     noise = noise.cwiseProduct(steadiness_.share());
     if constexpr (is_bent) bend_.predict(speed_px_s_ * dt_s);
     if (visible_share_ < UsualWay::least_seen_share && usual_way_.is_known()) {
@@ -71,11 +72,12 @@ void KalmanEstimator<kind>::spread(double dt_s) {
             filter_.add_variance(Filter::dof + i, f * own_px_s * own_px_s * unit2(i));
         }
     }
-    if (quiet_.wait(dt_s)) quiet_.look(filter_, size_.per_gyration2, visible_share_ > 0.95);
+    if (parts_.quiet_facings && quiet_.wait(dt_s))
+        quiet_.look(filter_, size_.per_gyration2, visible_share_ > 0.95);
     const double speed_sigma = std::max(told_px_s, std::min(own_px_s, 3 * told_px_s)) + 30;
     for (int i = 0; i < Filter::dof; ++i) {
         filter_.limit_variance(i, most_pose_sigma_px_ * most_pose_sigma_px_ * unit2(i));
-        if (clock_.is_told()) {
+        if (parts_.event_clock && clock_.is_told()) {
             filter_.limit_variance(Filter::dof + i, speed_sigma * speed_sigma * unit2(i));
         }
     }

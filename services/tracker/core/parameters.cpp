@@ -9,6 +9,13 @@
 namespace pursuit::tracker {
 namespace {
 
+/// A switch; see KalmanParts.
+constexpr Parameter<ObjectParameters> part_of_kalman(std::string_view name,
+                                                     double ObjectParameters::*member,
+                                                     std::string_view meaning) {
+    return {name, member, 0, 1, "1", meaning};
+}
+
 constexpr std::array object_table{
     Parameter<ObjectParameters>{"gate_px", &ObjectParameters::gate_px, 0.5, 50, "px",
                                 "events farther from the model than this are not the object's"},
@@ -19,12 +26,46 @@ constexpr std::array object_table{
     Parameter<ObjectParameters>{"depth_order", &ObjectParameters::depth_order, 0, 1000, "1",
                                 "an object of a lower number hides those of higher ones; 0: told "
                                 "from the events that are missing"},
-    Parameter<ObjectParameters>{"learns_offsets", &ObjectParameters::learns_offsets, 0, 1, "1",
-                                "1: kalman learns how far beside each piece of the contour its "
-                                "events come; 0: the model is right"},
-    Parameter<ObjectParameters>{"tells_contrast", &ObjectParameters::tells_contrast, 0, 1, "1",
-                                "1: kalman tells how strong each edge is, and how early its events "
-                                "come for it; 0: all edges are alike"},
+    part_of_kalman("uses_event_clock", &ObjectParameters::uses_event_clock,
+                   "1: the rate of its events tells kalman how fast an object can turn away; 0: "
+                   "its velocity alone"),
+    part_of_kalman("uses_leads", &ObjectParameters::uses_leads,
+                   "1: for kalman events come ahead of an edge that moves; 0: on it (then trail, "
+                   "contrast, polarity and levels are off, too)"),
+    part_of_kalman(
+        "holds_leads", &ObjectParameters::holds_leads,
+        "1: kalman holds leads to what the physics of a pixel tells; 0: events alone tell them"),
+    part_of_kalman(
+        "learns_trail", &ObjectParameters::learns_trail,
+        "1: kalman learns what the way since a pixel's last event does to the next; 0: nothing"),
+    part_of_kalman("tells_contrast", &ObjectParameters::tells_contrast,
+                   "1: kalman tells how strong each edge is, and how early its events come for it; "
+                   "0: all edges are alike"),
+    part_of_kalman("tells_polarity", &ObjectParameters::tells_polarity,
+                   "1: polarity tells kalman which way an edge goes; 0: it goes as the pose did"),
+    part_of_kalman(
+        "remembers_levels", &ObjectParameters::remembers_levels,
+        "1: kalman remembers where the edge was when a pixel crossed its levels; 0: it does not"),
+    part_of_kalman(
+        "hears_silence", &ObjectParameters::hears_silence,
+        "1: parts of a contour that fall silent tell kalman of a turn; 0: the events alone do"),
+    part_of_kalman(
+        "learns_steadiness", &ObjectParameters::learns_steadiness,
+        "1: of what goes steadily kalman expects smaller turns; 0: the usual ones of everything"),
+    part_of_kalman(
+        "measures_clutter", &ObjectParameters::measures_clutter,
+        "1: kalman measures how many of the events are not the object's; 0: a fiftieth a px"),
+    part_of_kalman("adapts_noise", &ObjectParameters::adapts_noise,
+                   "1: kalman adapts its measurement noise to what comes; 0: it stays the usual"),
+    part_of_kalman(
+        "watches_noise", &ObjectParameters::watches_noise,
+        "1: among strong noise kalman looks out for where the object shows; 0: it does not"),
+    part_of_kalman("learns_offsets", &ObjectParameters::learns_offsets,
+                   "1: kalman learns how far beside each piece of the contour its events come; 0: "
+                   "the model is right"),
+    part_of_kalman(
+        "learns_bend", &ObjectParameters::learns_bend,
+        "1: beside the full affine kalman learns the bend of a view in perspective; 0: it is flat"),
     Parameter<ObjectParameters>{"gradient_position_gain", &ObjectParameters::gradient_position_gain,
                                 0, 0.5, "1", "eta1 of the paper: step of the position"},
     Parameter<ObjectParameters>{"gradient_angle_gain_rad_px2",
