@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nanoflann.hpp>
+
+#include "services/tracker/core/contour_edges.hpp"
 
 namespace pursuit::tracker {
 namespace {
-
-// An inferred edge is at most this many times the median distance between neighbours.
-constexpr double longest_edge = 2.5;
 
 // The grid is built for somewhat more than asked, so that it is not built again at once.
 constexpr double spare = 1.25;
@@ -21,54 +19,21 @@ constexpr double cells_of_piece = 0.4;
 constexpr double finest_cells_px = 0.25;
 constexpr double coarsest_cells_px = 1.5;
 
-using Points = Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor>;
-using Tree = nanoflann::KDTreeEigenMatrixAdaptor<Points, 2, nanoflann::metric_L2_Simple>;
+/// Whether each point is the end of two edges.
+bool is_closed(const Shape& shape) {
+    std::vector<int> touching(shape.points_px.size(), 0);
+    for (const Edge& edge : shape.edges) {
+        ++touching[edge.from];
+        ++touching[edge.to];
+    }
+    return !shape.edges.empty() &&
+           std::all_of(touching.begin(), touching.end(), [](int n) { return n == 2; });
+}
 
 }  // namespace
 
-std::vector<Edge> inferred_edges(const std::vector<Eigen::Vector2f>& points_px) {
-    const std::size_t count = points_px.size();
-    std::vector<Edge> edges;
-    if (count < 2) return edges;
-    Points matrix(static_cast<Eigen::Index>(count), 2);
-    for (std::size_t i = 0; i < count; ++i) {
-        matrix.row(static_cast<Eigen::Index>(i)) = points_px[i].transpose();
-    }
-    const Tree tree(2, std::cref(matrix));
-    std::vector<float> to_neighbour2;
-    for (const Eigen::Vector2f& point : points_px) {
-        Eigen::Index index[2];
-        float squared[2];
-        if (tree.index->knnSearch(point.data(), 2, index, squared) == 2) {
-            to_neighbour2.push_back(squared[1]);
-        }
-    }
-    std::nth_element(to_neighbour2.begin(),
-                     to_neighbour2.begin() + static_cast<std::ptrdiff_t>(to_neighbour2.size() / 2),
-                     to_neighbour2.end());
-    const auto longest2 = static_cast<float>(longest_edge * longest_edge) *
-                          std::max(to_neighbour2[to_neighbour2.size() / 2], 1e-4F);
-    const nanoflann::SearchParams sorted;
-    std::vector<std::pair<Eigen::Index, float>> near;
-    for (std::size_t i = 0; i < count; ++i) {
-        tree.index->radiusSearch(points_px[i].data(), longest2, near, sorted);
-        for (const auto& [other, squared] : near) {
-            const auto j = static_cast<std::size_t>(other);
-            if (j <= i) continue;
-            const float bound = squared;
-            const bool has_third = std::any_of(near.begin(), near.end(), [&](const auto& third) {
-                const auto k = static_cast<std::size_t>(third.first);
-                return k != i && k != j && third.second < bound &&
-                       (points_px[k] - points_px[j]).squaredNorm() < bound;
-            });
-            if (has_third) continue;
-            edges.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j)});
-        }
-    }
-    return edges;
-}
-
-Contour::Contour(const Shape& shape) {
+Contour::Contour(const Shape& given) {
+    const Shape shape = without_repeats(given);
     std::vector<Piece> points;
     double sum2 = 0;
     for (const Eigen::Vector2f& point : shape.points_px) {
@@ -79,13 +44,7 @@ Contour::Contour(const Shape& shape) {
     }
     gyration_px_ = std::sqrt(sum2 / static_cast<double>(points.size()));
 
-    std::vector<int> touching(shape.points_px.size(), 0);
-    for (const Edge& edge : shape.edges) {
-        ++touching[edge.from];
-        ++touching[edge.to];
-    }
-    is_outline_ = !shape.edges.empty() &&
-                  std::all_of(touching.begin(), touching.end(), [](int n) { return n == 2; });
+    is_outline_ = is_closed(given) || is_closed(shape);
     is_of_events_ = !shape.edges.empty() && !is_outline_;
     const std::vector<Edge> edges =
         shape.edges.empty() ? inferred_edges(shape.points_px) : shape.edges;

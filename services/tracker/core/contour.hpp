@@ -13,13 +13,13 @@
 namespace pursuit::tracker {
 
 /// A shape ready for lookups: its points, its contour as straight pieces, and numbers about them.
-/// Where the shape has no edges, they are inferred from the points: neighbours to which no third
-/// point is nearer (the relative neighbourhood graph), unless far apart. Points that no edge
-/// touches stay as pieces without length.
+/// Points that lie on each other are one (without_repeats()); where the shape has no edges, they
+/// are inferred from the points (inferred_edges()). Points that no edge touches stay as pieces
+/// without length.
 class Contour {
  public:
     Contour() = default;
-    explicit Contour(const Shape& shape);
+    explicit Contour(const Shape& given);
 
     /// Makes lookups of pieces good for places within reach_px (image) of the shape under A. Builds
     /// anew only when A has become more unequal or smaller than what was built for; the answers are
@@ -76,8 +76,5 @@ class Contour {
     std::vector<std::uint32_t> ending_from_;  // of each point, where its pieces begin
     std::vector<std::uint16_t> ending_;
 };
-
-/// The edges that a contour without edges gets.
-std::vector<Edge> inferred_edges(const std::vector<Eigen::Vector2f>& points_px);
 
 }  // namespace pursuit::tracker

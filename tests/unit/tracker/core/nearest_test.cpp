@@ -6,6 +6,7 @@
 #include <random>
 
 #include "services/tracker/core/contour.hpp"
+#include "services/tracker/core/contour_edges.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
 
 namespace pursuit::tracker {
@@ -112,8 +113,11 @@ TEST(NearestPiece, agrees_with_a_kd_tree_on_a_large_model) {
     for (int i = 0; i < 4096; ++i) {
         shape.points_px.emplace_back(random.between(-300, 300), random.between(-200, 200));
     }
-    Points matrix(4096, 2);
-    for (int i = 0; i < 4096; ++i) {
+    shape = without_repeats(shape);
+    const auto count = static_cast<Eigen::Index>(shape.points_px.size());
+    ASSERT_GT(count, 4000);
+    Points matrix(count, 2);
+    for (Eigen::Index i = 0; i < count; ++i) {
         matrix.row(i) = shape.points_px[static_cast<std::size_t>(i)].cast<double>().transpose();
     }
     const nanoflann::KDTreeEigenMatrixAdaptor<Points, 2> tree(2, std::cref(matrix));
@@ -137,18 +141,6 @@ TEST(NearestPiece, finds_the_one_place_of_a_model_that_is_a_line) {
     EXPECT_DOUBLE_EQ(nearest.squared_px, 16);
     EXPECT_EQ(grid.nearest(200, 0, ImageMetric()).piece, -1);
     EXPECT_EQ(grid.nearest(std::nan(""), 0, ImageMetric()).piece, -1);
-}
-
-TEST(Contour, infers_the_outline_of_evenly_spaced_points) {
-    const Shape shape = test::arrow();
-    std::vector<Edge> edges = inferred_edges(shape.points_px);
-    std::size_t right = 0;
-    for (const Edge& edge : edges) {
-        const auto count = shape.points_px.size();
-        right += (edge.from + 1U) % count == edge.to || (edge.to + 1U) % count == edge.from;
-    }
-    EXPECT_GE(right, shape.points_px.size() - 2);
-    EXPECT_LE(edges.size(), shape.points_px.size() + 2);
 }
 
 TEST(Contour, names_the_pieces_that_end_at_each_point) {
