@@ -66,11 +66,23 @@ std::string headline(const char* service, const std::string& instance,
 }
 
 /// The causes that counted anything, or nothing.
-std::string causes(const std::vector<v1::NamedCount>& counts) {
+/// Event time; below 0 there is none yet.
+std::string at_time(std::int64_t t_us) {
+    if (t_us < 0) return "before the first event";
+    return format("at %.3f s", static_cast<double>(t_us) * 1e-6);
+}
+
+/// Why objects were lost is among the causes, and is nothing that was dropped.
+constexpr std::string_view of_lost = "objects.lost.";
+
+/// Those that begin with `with`, less that, or, without, those that are nothing of the objects'.
+std::string causes(const std::vector<v1::NamedCount>& counts, std::string_view with = "") {
     std::string text;
     for (const auto& count : counts) {
-        if (count.count() == 0) continue;
-        text += (text.empty() ? " (" : ", ") + count.name().to_string() + " " +
+        const std::string name = count.name().to_string();
+        const bool is_wanted = with.empty() ? !name.starts_with(of_lost) : name.starts_with(with);
+        if (count.count() == 0 || !is_wanted) continue;
+        text += (text.empty() ? " (" : ", ") + name.substr(with.size()) + " " +
                 number_text(count.count());
     }
     return text.empty() ? text : text + ")";
@@ -170,9 +182,9 @@ std::string status_json(const v1::RecorderStatus& status) {
 
 std::string status_lines(const v1::SensorStatus& status) {
     return headline("sensor", status.instance().to_string(), status.health()) +
-           format("          %s, %u x %u px, rate %g, at %.3f s\n", status.source().c_str(),
+           format("          %s, %u x %u px, rate %g, %s\n", status.source().c_str(),
                   status.width(), status.height(), status.rate(),
-                  static_cast<double>(status.last_t_us()) * 1e-6) +
+                  at_time(status.last_t_us()).c_str()) +
            format("          events in %llu, out %llu (%.0f/s), packets %llu, dropped %llu",
                   number(status.events_in()), number(status.events_out()), status.event_rate_hz(),
                   number(status.packets_out()), number(status.events_dropped())) +
@@ -188,11 +200,13 @@ std::string status_lines(const v1::TrackerStatus& status) {
                   number(status.packets_in()), number(status.gaps()),
                   number(status.packets_missed()), status.queue_packets(),
                   status.queue_packets_max(), status.queue_capacity()) +
-           format("          objects %u, tracking %u, lost %u; poses %llu, thinned %llu\n",
-                  status.objects(), status.objects_tracking(), status.objects_lost(),
-                  number(status.poses_out()), number(status.poses_thinned())) +
-           format("          at %.3f s; busy %.1f %%; latency p50 %.0f, p99 %.0f, max %.0f us\n",
-                  static_cast<double>(status.last_t_us()) * 1e-6, status.busy_fraction() * 100,
+           format("          objects %u, tracking %u, lost %u", status.objects(),
+                  status.objects_tracking(), status.objects_lost()) +
+           causes(status.dropped_by(), of_lost) +
+           format("; poses %llu, thinned %llu\n", number(status.poses_out()),
+                  number(status.poses_thinned())) +
+           format("          %s; busy %.1f %%; latency p50 %.0f, p99 %.0f, max %.0f us\n",
+                  at_time(status.last_t_us()).c_str(), status.busy_fraction() * 100,
                   status.latency().p50_us(), status.latency().p99_us(), status.latency().max_us());
 }
 

@@ -9,11 +9,12 @@
 namespace pursuit::tracker {
 
 PosePublisher::PosePublisher(std::uint32_t sensor_id, Clock& clock, WritePose write_pose,
-                             WriteTrack write_track)
+                             WriteTrack write_track, TellLoss tell_loss)
     : sensor_id_(sensor_id),
       clock_(clock),
       write_pose_(std::move(write_pose)),
-      write_track_(std::move(write_track)) {
+      write_track_(std::move(write_track)),
+      tell_loss_(std::move(tell_loss)) {
     sample_.sensor_id(sensor_id);
 }
 
@@ -27,6 +28,7 @@ void PosePublisher::forget(std::uint32_t object_id) { objects_.erase(object_id);
 void PosePublisher::pose(const PoseRecord& record) {
     Object& object = objects_[record.object_id];
     object.state = record.state;
+    see_loss(record, object);
     fill(sample_, record);
     sample_.sequence_number(++object.sequence_number);
     sample_.host_time_ns(host_time_ns(record.t_us));
@@ -36,6 +38,17 @@ void PosePublisher::pose(const PoseRecord& record) {
     }
     ++poses_;
     latency_.add((clock_.realtime_ns() - packet_host_time_ns_) / 1000);
+}
+
+void PosePublisher::see_loss(const PoseRecord& record, Object& object) {
+    if (std::exchange(object.loss_cause, record.loss_cause) == record.loss_cause) return;
+    if (record.loss_cause == LossCause::not_lost) return;
+    constexpr std::int64_t every_us = 1'000'000;
+    const bool is_told = object.loss_told_us > 0 && record.t_us >= object.loss_told_us &&
+                         record.t_us - object.loss_told_us < every_us;
+    if (is_told) return;
+    object.loss_told_us = record.t_us;
+    tell_loss_(record);
 }
 
 void PosePublisher::update(const UpdateRecord& record) {

@@ -21,8 +21,11 @@ class PosePublisher final : public PoseSink {
     using WritePose = std::function<bool(v1::ObjectPose&)>;
     using WriteTrack = std::function<bool(v1::PoseTrack&)>;
 
+    /// For the log, each object at most once a second of event time: it is lost, and why.
+    using TellLoss = std::function<void(const PoseRecord&)>;
+
     PosePublisher(std::uint32_t sensor_id, Clock& clock, WritePose write_pose,
-                  WriteTrack write_track);
+                  WriteTrack write_track, TellLoss tell_loss);
 
     /// Of the packet whose events come next: the host time of its base time.
     void packet(std::int64_t base_time_us, std::int64_t host_time_ns);
@@ -51,15 +54,19 @@ class PosePublisher final : public PoseSink {
         std::uint64_t sequence_number = 0;
         std::uint64_t track_sequence_number = 0;
         TrackState state = TrackState::searching;
+        LossCause loss_cause = LossCause::not_lost;
+        std::int64_t loss_told_us = 0;
         std::uint64_t stream_id = 0;
         std::vector<v1::PoseUpdate> updates;
     };
+    void see_loss(const PoseRecord& record, Object& object);
     void send_track(std::uint32_t object_id, Object& object);
 
     std::uint32_t sensor_id_;
     Clock& clock_;
     WritePose write_pose_;
     WriteTrack write_track_;
+    TellLoss tell_loss_;
     std::int64_t packet_base_time_us_ = 0;
     std::int64_t packet_host_time_ns_ = 0;
     std::map<std::uint32_t, Object> objects_;

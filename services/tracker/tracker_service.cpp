@@ -73,6 +73,10 @@ Result<void> TrackerService::start() {
         [this](v1::TrackerSettings& settings) { return settings_->write(settings); },
         [this](const SessionFigures& figures) { return status(figures); },
         [this](const std::string& message) { health_.error(message); },
+        [](const PoseRecord& lost) {
+            spdlog::warn("object {} is lost at {:.6f} s: {}", lost.model,
+                         static_cast<double>(lost.t_us) * 1e-6, to_string(lost.loss_cause));
+        },
     };
     store_ = std::make_unique<StoreWriter>(
         path, [this](const std::string& message) { health_.error(message); });

@@ -54,7 +54,7 @@ TrackerSession::TrackerSession(Tracker tracker, ServiceIdentity identity,
                                   answer.outcome.message().to_string());
                }),
       follower_(identity_.sensor_id),
-      publisher_(identity_.sensor_id, clock, outputs_.pose, outputs_.track),
+      publisher_(identity_.sensor_id, clock, outputs_.pose, outputs_.track, outputs_.loss),
       board_(identity_, outputs_.model, outputs_.settings) {
     if (stored) restore(*stored);
     for (const auto& model : models) {
@@ -82,11 +82,17 @@ void TrackerSession::restore(const StoredState& stored) {
         tell("parameters", tracker.set_parameters("", std::span(&value, 1)));
     }
     for (const auto& [object, track] : stored.objects) {
-        Start start = object.start;
-        if (track) start = {false, track->pose, track->velocity};
-        tell("object " + object.shape.name,
-             tracker.register_object({object.object_id, object.shape, object.transform,
-                                      object.estimator, start, values(object.parameters)}));
+        Registration again{object.object_id, object.shape, object.transform,
+                           object.estimator, object.start, values(object.parameters)};
+        if (track) {
+            again.start = {false, track->pose, track->velocity};
+            const auto restored = tracker.register_object(again);
+            tell("pose of object " + object.shape.name + " (it begins where it was registered)",
+                 restored);
+            if (restored) continue;
+            again.start = object.start;
+        }
+        tell("object " + object.shape.name, tracker.register_object(again));
     }
     resumable_ = stored;
 }

@@ -49,6 +49,7 @@ struct SessionOutputs {
     ModelBoard::WriteSettings settings;
     std::function<v1::TrackerStatus(const SessionFigures&)> status;  ///< Asked for by a call.
     std::function<void(const std::string&)> error;                   ///< For log and status.
+    PosePublisher::TellLoss loss;                                    ///< For the log.
 };
 
 /// Everything that the core thread does, in the order that it is given: packets to the tracker,

@@ -50,6 +50,11 @@ v1::TrackerStatus tracker_status(const ServiceIdentity& identity, const SessionF
     count("requests.queue_full", intake.refused_requests);
     count("requests.refused_at_their_time", figures.late_refusals);
     count("writes.failed", figures.write_failures);
+    // How often an object was lost, and why.
+    for (std::size_t i = 1; i < tracker.lost_by.size(); ++i) {
+        count(("objects.lost." + std::string(to_string(static_cast<LossCause>(i)))).c_str(),
+              tracker.lost_by[i]);
+    }
 
     status.events_in(tracker.events_in + queue_full + figures.dropped_bad_geometry);
     status.events_used(tracker.events_used);

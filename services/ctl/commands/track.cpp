@@ -58,6 +58,23 @@ Result<void> complete(TrackOptions& options) {
     return {};
 }
 
+/// Events that were dropped, and how often objects were lost, where there are any.
+void tell_losses(const tracker::TrackerCounters& counters) {
+    const auto tell = [](std::uint64_t count, const std::string& what) {
+        if (count > 0) {
+            std::fprintf(stderr, "%llu %s\n", static_cast<unsigned long long>(count), what.c_str());
+        }
+    };
+    tell(counters.dropped_outside_geometry, "events dropped: outside the image");
+    tell(counters.dropped_time_went_back, "events dropped: earlier than one before");
+    tell(counters.dropped_time_out_of_range, "events dropped: no time that a tracker takes");
+    tell(counters.poses_thinned, "poses left out: more than max_poses_per_s");
+    for (std::size_t i = 1; i < counters.lost_by.size(); ++i) {
+        tell(counters.lost_by[i], "times an object was lost: " +
+                                      std::string(to_string(static_cast<tracker::LossCause>(i))));
+    }
+}
+
 int track(TrackOptions& options) {
     if (auto ok = complete(options); !ok) return report(ok.error(), exit_configuration);
     const auto range = sensor::range_of_seconds(options.from_s, options.to_s);
@@ -74,6 +91,7 @@ int track(TrackOptions& options) {
                  static_cast<double>(counters.events_in) / 1e6 / std::max(done->wall_s, 1e-9),
                  static_cast<unsigned long long>(counters.events_used),
                  static_cast<unsigned long long>(counters.poses_emitted));
+    tell_losses(counters);
     return exit_success;
 }
 

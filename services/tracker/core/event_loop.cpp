@@ -100,13 +100,16 @@ void EventLoop::reach(std::int64_t now_us, PoseSink& sink) {
 
 void EventLoop::emit_before(std::int64_t end_us, PoseSink& sink) {
     for (; grid_.next_us() < end_us; grid_.step()) {
-        for (const Track& track : tracks_) {
+        for (Track& track : tracks_) {
             if (!grid_.is_due(track.object_id(), tracks_.size())) {
                 ++counters_.poses_thinned;
                 continue;
             }
             PoseRecord record = track.record(grid_.next_us());
             record.stream_id = stream_id_;
+            if (track.tells_of_loss(record.loss_cause)) {
+                ++counters_.lost_by[static_cast<std::size_t>(record.loss_cause)];
+            }
             sink.pose(record);
             ++counters_.poses_emitted;
         }

@@ -14,6 +14,8 @@ constexpr std::array<std::string_view, 7> strategies{"closest",      "reject_all
                                                      "weighted",     "temporal",   "spatiotemporal",
                                                      "probabilistic"};
 constexpr std::array<std::string_view, 4> states{"SEARCHING", "TRACKING", "OCCLUDED", "LOST"};
+constexpr std::array<std::string_view, loss_causes> causes{
+    "not_lost", "does_not_fit", "gone", "in_noise", "not_seen_again", "out_of_bounds"};
 
 template <class Kind, std::size_t N>
 std::string_view name_of(const std::array<std::string_view, N>& names, Kind kind) {
@@ -45,6 +47,7 @@ std::string_view to_string(TransformKind kind) { return name_of(transforms, kind
 std::string_view to_string(EstimatorKind kind) { return name_of(estimators, kind); }
 std::string_view to_string(StrategyKind kind) { return name_of(strategies, kind); }
 std::string_view to_string(TrackState state) { return name_of(states, state); }
+std::string_view to_string(LossCause cause) { return name_of(causes, cause); }
 
 std::optional<TransformKind> parse_transform(std::string_view text) {
     return kind_of<TransformKind>(transforms, text);

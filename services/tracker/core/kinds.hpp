@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,10 +41,22 @@ enum class TrackState {
     lost,       ///< The pose says nothing any more.
 };
 
+/// Why a track is lost. (What tells it: docs/tracking.md.)
+enum class LossCause {
+    not_lost,
+    does_not_fit,    ///< Events came that are not those of the object at its pose.
+    gone,            ///< All that it covered changed at once: taken away, or replaced.
+    in_noise,        ///< Steady noise leaves next to nothing of what is on its contour to it.
+    not_seen_again,  ///< Its events were missing, or it was hidden, for longer than it may coast.
+    out_of_bounds,   ///< Its events moved the pose out of the bounds of check(Pose).
+};
+constexpr std::size_t loss_causes = 6;
+
 std::string_view to_string(TransformKind kind);
 std::string_view to_string(EstimatorKind kind);
 std::string_view to_string(StrategyKind kind);
 std::string_view to_string(TrackState state);  ///< SEARCHING, TRACKING, OCCLUDED, LOST
+std::string_view to_string(LossCause cause);   ///< As it is called above.
 
 /// The kind of that name as to_string() gives it; nothing for any other text.
 std::optional<TransformKind> parse_transform(std::string_view text);

@@ -21,6 +21,7 @@ struct PoseRecord {
     std::string_view model;            ///< Valid during the call that hands the record over.
     TransformKind transform = TransformKind::isometry;
     TrackState state = TrackState::searching;
+    LossCause loss_cause = LossCause::not_lost;
     Pose pose;
     double theta_rad = 0;
     double scale_x = 1;

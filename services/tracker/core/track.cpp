@@ -79,6 +79,7 @@ void Track::begin() {
     look_for_blind_us_ = 0;
     acquired_us_ = doubted_us_ = never_us;
     trial_until_us_ = -1;
+    last_event_t_us_ = 0;
     visible_share_ = 1;
     vanishing_.restart();
     find_what_to_watch();
@@ -121,19 +122,26 @@ void Track::begin_stream() {
     last_event_t_us_ = 0;
     lose_grip(0);
     is_adrift_ = true;
-    adrift_since_us_ = -1;
+    adrift_since_us_ = -1;  // the stream's first time, whatever the sensor counts from
 }
 
 void Track::lose_grip(std::int64_t t_us) {
     stir();
     is_acquiring_ = true;
-    does_not_fit_ = false;
+    lost_by_ = LossCause::not_lost;
     grip_.forgive();
     grip_lost_us_ = t_us;
     good_.coast_from(t_us);
     acquisition_began_us_ = t_us;
     trial_until_us_ = -1;
     acquisition_->begin(coasted(t_us));
+}
+
+// What its events made of it is no pose: the last good one is all that is known.
+void Track::run_off(std::int64_t t_us) {
+    estimator_->restart(good_.before().pose, {});
+    lose_grip(t_us);
+    lost_by_ = LossCause::out_of_bounds;
 }
 
 void Track::weigh(std::int64_t t_us) {
@@ -144,7 +152,7 @@ void Track::weigh(std::int64_t t_us) {
     const Health& health = grip_.health();
     if (parameters_.let_go_sharpness > 0 && grip_.is_lost()) {
         lose_grip(t_us);
-        does_not_fit_ = !health.is_fair();
+        if (!health.is_fair()) lost_by_ = LossCause::does_not_fit;
         return;
     }
     if (health.is_settled() && health.is_fair()) emerged_us_ = -1;
@@ -197,8 +205,12 @@ Pose Track::pose() const {
 void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
     due_us_ = due_us_ == 0 ? t_us : t_us + unstirred_us;
     estimator_->set_blind_us(pixels.blind_us());
-    if (adrift_since_us_ < 0) adrift_since_us_ = t_us;
+    if (adrift_since_us_ < 0) {
+        adrift_since_us_ = t_us;
+        if (is_adrift_) grip_lost_us_ = t_us;
+    }
     if (is_covered_) return;
+    if (!is_acquiring_ && !check(estimator_->pose(), transform_)) run_off(t_us);
     if (!is_acquiring_ && grip_.is_counting()) weigh(silence_.heard_us());
     if (!is_acquiring_) {
         if (t_us >= look_for_blind_us_) {
@@ -211,7 +223,7 @@ void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
     }
     if (vanishing_.is_gone(t_us)) {
         if (!is_acquiring_) lose_grip(t_us);
-        does_not_fit_ = true;
+        lost_by_ = LossCause::gone;
         emerged_us_ = -1;
         vanishing_.restart();
     }

@@ -139,6 +139,10 @@ class Track {
 
     /// What is known at a grid time at or after the last event.
     [[nodiscard]] PoseRecord record(std::int64_t t_us) const;
+    /// Notes what the last record told; whether it told of a loss, or of another cause of it.
+    bool tells_of_loss(LossCause told) {
+        return std::exchange(told_, told) != told && told != LossCause::not_lost;
+    }
     [[nodiscard]] TrackSnapshot snapshot() const;
 
  private:
@@ -154,6 +158,7 @@ class Track {
     /// What the events counted since the last time, until t_us, say about the pose.
     void weigh(std::int64_t t_us);
     void lose_grip(std::int64_t t_us);
+    void run_off(std::int64_t t_us);
     /// To be called when what it depends on has changed.
     void find_what_to_watch();
     /// An event near the object: whether all of it fires at once.
@@ -165,6 +170,8 @@ class Track {
     [[nodiscard]] Going going() const;
     [[nodiscard]] Pose coasted(std::int64_t t_us) const;
     [[nodiscard]] TrackState state_at(std::int64_t t_us) const;
+    /// Where its state is lost.
+    [[nodiscard]] LossCause loss_cause() const;
     [[nodiscard]] double confidence_at(std::int64_t t_us) const;
 
     static double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
@@ -206,7 +213,8 @@ class Track {
     bool has_moved_ = false;    // by an event since the last weigh()
     int near_since_check_ = 0;  // events, since one found too few of them
     std::int64_t unmoved_until_us_ = 0;
-    bool does_not_fit_ = false;  // the grip was lost to events of something else
+    LossCause lost_by_ = LossCause::not_lost;  // not_seen_again once it may coast no more
+    LossCause told_ = LossCause::not_lost;
     std::int64_t grip_lost_us_ = 0;
     std::int64_t acquisition_began_us_ = 0;
     std::int64_t trial_until_us_ = -1;  // of an offered pose

@@ -26,9 +26,14 @@ TrackState Track::state_at(std::int64_t t_us) const {
     if (vanishing_.is_gone(t_us)) return TrackState::lost;
     if (!is_acquiring_) return TrackState::tracking;
     // Hidden by what is not tracked, its events are missing; what does not fit is something else.
-    if (does_not_fit_) return TrackState::lost;
+    if (lost_by_ != LossCause::not_lost) return TrackState::lost;
     return seconds(t_us - grip_lost_us_) < tracker_.coast_s ? TrackState::occluded
                                                             : TrackState::lost;
+}
+
+LossCause Track::loss_cause() const {
+    if (!is_acquiring_) return estimator_->is_swamped() ? LossCause::in_noise : LossCause::gone;
+    return lost_by_ != LossCause::not_lost ? lost_by_ : LossCause::not_seen_again;
 }
 
 double Track::confidence_at(std::int64_t t_us) const {
@@ -54,6 +59,7 @@ PoseRecord Track::record(std::int64_t t_us) const {
     record.model = name_;
     record.transform = transform_;
     record.state = state_at(t_us);
+    if (record.state == TrackState::lost) record.loss_cause = loss_cause();
     estimator_->describe(t_us, record);
     if (is_acquiring_ && !is_searching_) {
         record.pose = coasted(t_us);
@@ -63,10 +69,18 @@ PoseRecord Track::record(std::int64_t t_us) const {
         record.pose = hidden_way_.pose_at(t_us);
         record.velocity = hidden_way_.last().velocity;
     }
+    record.confidence = static_cast<float>(confidence_at(t_us));
+    if (!check(record.pose, transform_) || !check(record.velocity)) {
+        // Found out before the track is told (run_off()).
+        record.pose = good_.before().pose;
+        record.velocity = {};
+        record.state = TrackState::lost;
+        record.loss_cause = LossCause::out_of_bounds;
+        record.confidence = 0;
+    }
     record.theta_rad = theta_rad(record.pose.a);
     record.scale_x = scale_x(record.pose.a);
     record.scale_y = scale_y(record.pose.a);
-    record.confidence = static_cast<float>(confidence_at(t_us));
     record.events_used = events_used_;
     if (!is_searching_ && !is_acquiring_ && !is_covered_) {
         record.event_rate_hz = static_cast<float>(grip_.health().rate_hz(t_us));

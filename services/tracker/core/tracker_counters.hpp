@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+
+#include "services/tracker/core/kinds.hpp"
 
 namespace pursuit::tracker {
 
@@ -15,6 +18,9 @@ struct TrackerCounters {
     std::uint64_t dropped_time_out_of_range = 0;  ///< Below 0, or 2^53 µs and beyond.
     std::uint64_t poses_emitted = 0;
     std::uint64_t poses_thinned = 0;  ///< Left out to keep max_poses_per_s.
+    /// How often an object was told to be lost, by LossCause; what changes while it is lost counts
+    /// again.
+    std::array<std::uint64_t, loss_causes> lost_by{};
 };
 
 }  // namespace pursuit::tracker

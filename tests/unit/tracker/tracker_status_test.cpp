@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace pursuit::tracker {
 namespace {
 
@@ -26,6 +28,19 @@ TEST(TrackerStatus, before_the_first_event_has_no_lag) {
     SessionFigures figures;
     figures.taken_host_time_ns = 3'500'000;
     EXPECT_EQ(status_of(figures, clock).lag_us(), 0);
+}
+
+TEST(TrackerStatus, says_how_often_objects_were_lost_and_why_apart_from_what_was_dropped) {
+    ManualClock clock;
+    SessionFigures figures;
+    figures.tracker.lost_by[static_cast<std::size_t>(LossCause::gone)] = 3;
+    const auto status = status_of(figures, clock);
+    const auto named = std::find_if(status.dropped_by().begin(), status.dropped_by().end(),
+                                    [](const auto& c) { return c.name() == "objects.lost.gone"; });
+    ASSERT_NE(named, status.dropped_by().end());
+    EXPECT_EQ(named->count(), 3U);
+    EXPECT_EQ(status.events_dropped(), 0U);
+    EXPECT_LE(status.dropped_by().size(), 32U);
 }
 
 TEST(TrackerStatus, of_an_open_stream_without_packets_for_100_ms_is_a_fault) {

@@ -88,6 +88,7 @@ TEST(Life, lets_go_within_100_ms_of_an_object_that_is_replaced) {
                 << row.record.t_us << ' ' << row.record.confidence;
             if (row.record.t_us < 1'000'000) {
                 ASSERT_EQ(row.record.state, TrackState::lost);
+                ASSERT_EQ(row.record.loss_cause, LossCause::does_not_fit);
             }
             if (row.record.state != TrackState::lost) ++tried_ms;
         }
@@ -131,6 +132,7 @@ TEST(Life, says_within_100_ms_that_an_object_is_gone_though_no_event_comes_any_m
             }
             if (record.t_us > gone_us + 100'000) {
                 ASSERT_EQ(record.state, TrackState::lost) << record.t_us;
+                ASSERT_EQ(record.loss_cause, LossCause::gone) << record.t_us;
             }
         }
     }
