@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 namespace pursuit {
@@ -14,6 +15,14 @@ namespace {
 constexpr std::size_t buffer_bytes = 1 << 18;
 
 }  // namespace
+
+Result<void> check_is_not_input(const std::string& output_path, const std::string& input_path) {
+    std::error_code not_there;  // Then it is no input.
+    if (std::filesystem::equivalent(output_path, input_path, not_there)) {
+        return fail(output_path + ": is the input " + input_path + ", which it would overwrite");
+    }
+    return {};
+}
 
 Result<OutputFile> OutputFile::create(const std::string& path) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

@@ -11,6 +11,10 @@
 
 namespace pursuit {
 
+/// Refuses an output that is the very file of an input, under whatever name: to create it would
+/// empty what is yet to be read.
+Result<void> check_is_not_input(const std::string& output_path, const std::string& input_path);
+
 /// A file being written from its start, buffered. The first error sticks: every later call returns
 /// it, so that a full disk cannot pass as success. A file that was not closed is incomplete.
 class OutputFile {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "services/common/output_file.hpp"
 #include "services/ctl/pose_csv.hpp"
 #include "services/sensor/formats/formats.hpp"
 #include "services/tracker/start_settings.hpp"
@@ -62,6 +63,9 @@ Result<void> follow(sensor::EventReader& events, tracker::Tracker& tracker, Tabl
 }  // namespace
 
 Result<OfflineTrackSummary> track_offline(const OfflineTrack& task) {
+    if (auto ok = check_is_not_input(task.poses, task.events); !ok) {
+        return tl::unexpected(ok.error());
+    }
     auto tracker = tracker::configured_tracker(task.config, 1);
     if (!tracker) return tl::unexpected(tracker.error());
     sensor::ReadOptions options;
@@ -69,6 +73,11 @@ Result<OfflineTrackSummary> track_offline(const OfflineTrack& task) {
     auto recording = sensor::open_events(task.events, options);
     if (!recording) return tl::unexpected(recording.error());
     const auto events = sensor::in_range(std::move(*recording), task.range);
+    if (const Geometry geometry = events->geometry(); !tracker::is_usable(geometry)) {
+        return fail(task.events + ": an image of " + std::to_string(geometry.width) + "x" +
+                    std::to_string(geometry.height) + ": the tracker takes 1 to " +
+                    std::to_string(tracker::max_pixels) + " pixels");
+    }
     // Objects are registered before the stream begins, as the service does with those of its
     // configuration.
     if (auto ok = register_models(task, *tracker); !ok) return tl::unexpected(ok.error());

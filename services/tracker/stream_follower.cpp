@@ -27,7 +27,7 @@ PacketFate StreamFollower::take(const PacketHeader& packet) {
         ++counters_.of_another_sensor;
         return PacketFate::of_another_sensor;
     }
-    if (packet.geometry.width == 0 || packet.geometry.height == 0) {
+    if (!is_usable(packet.geometry)) {
         ++counters_.bad_geometry;
         return PacketFate::bad_geometry;
     }

@@ -26,7 +26,7 @@ enum class PacketFate {
     of_another_sensor,  ///< This and all below: not to be used.
     of_another_stream,
     old,           ///< A sequence number at or before the last one's.
-    bad_geometry,  ///< No pixels, or others than the stream began with.
+    bad_geometry,  ///< No pixels, too many, or others than the stream began with.
 };
 
 /// Running totals.

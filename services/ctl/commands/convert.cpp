@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "services/common/output_file.hpp"
 #include "services/ctl/commands/offline_commands.hpp"
 #include "services/ctl/commands/option_values.hpp"
 #include "services/ctl/commands/report.hpp"
@@ -64,6 +65,7 @@ int convert(const ConvertOptions& options) {
     if (!geometry) return report(geometry.error());
     const auto range = sensor::range_of_seconds(options.from_s, options.to_s);
     if (!range) return report(range.error());
+    if (auto ok = check_is_not_input(options.to, options.from); !ok) return report(ok.error());
     auto recording = sensor::open_events(options.from, {options.format, *geometry});
     if (!recording) return report(recording.error());
     const auto events = sensor::in_range(std::move(*recording), *range);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "services/common/atomic_file.hpp"
+#include "services/common/output_file.hpp"
 #include "services/ctl/commands/mcap_info.hpp"
 #include "services/ctl/commands/offline_commands.hpp"
 #include "services/ctl/commands/option_values.hpp"
@@ -35,6 +36,9 @@ int grey(const GreyOptions& options) {
     sensor::ReadOptions how;
     how.format = options.format;
     how.geometry = *geometry;
+    if (auto ok = check_is_not_input(options.output, options.events); !ok) {
+        return report(ok.error());
+    }
     const auto image = is_mcap(options.events)
                            ? grey_of_mcap(options.events, options.sensor_id, at_us)
                            : grey_of_events(options.events, how, at_us);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "services/common/output_file.hpp"
 #include "services/ctl/commands/offline_commands.hpp"
 #include "services/ctl/commands/option_values.hpp"
 #include "services/ctl/commands/report.hpp"
@@ -50,6 +51,9 @@ int extract(ExtractOptions& options) {
 
     const auto geometry = geometry_of(options.geometry);
     if (!geometry) return report(geometry.error());
+    if (auto ok = check_is_not_input(options.output, options.events); !ok) {
+        return report(ok.error());
+    }
     sensor::ReadOptions read_options;
     read_options.geometry = *geometry;
     auto recording = sensor::open_events(options.events, read_options);

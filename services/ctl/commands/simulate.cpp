@@ -53,7 +53,7 @@ int simulate(SimulateOptions& options) {
     const auto scene = sensor::load_scene(options.scene, options.settings);
     if (!scene) return report(scene.error(), exit_configuration);
     if (!options.models.empty()) options.files.models_dir = options.models;
-    if (options.duration_s > 0) options.files.duration_s = options.duration_s;
+    if (options.duration_s != 0) options.files.duration_s = options.duration_s;
     const auto summary = write(options, *scene);
     if (!summary) return report(summary.error());
     std::printf("%" PRIu64 " events in %.3f s\n", summary->events,
@@ -85,7 +85,7 @@ Run define_simulate(CLI::App& app) {
         ->required();
     app.add_option("--models", options->models, "Folder for the models and their start poses");
     app.add_option("--duration", options->duration_s, "Seconds; 0: as the scene says")
-        ->check(CLI::NonNegativeNumber)
+        ->check(CLI::Range(0.0, 86400.0))
         ->capture_default_str();
     return [options] { return simulate(*options); };
 }

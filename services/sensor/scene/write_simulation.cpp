@@ -15,6 +15,7 @@ namespace pursuit::sensor {
 namespace {
 
 constexpr std::int64_t truth_period_us = 1000;
+constexpr double longest_s = 86'400;
 constexpr std::int64_t slice_us = 10 * truth_period_us;
 
 __attribute__((format(printf, 2, 3))) void print(std::string& out, const char* format, ...) {
@@ -108,6 +109,9 @@ Result<SimulationSummary> write_simulation(const Scene& scene, std::uint64_t see
     SceneSimulator simulator(scene, seed);
     SimulationSummary summary;
     if (files.duration_s) {
+        if (!(*files.duration_s > 0 && *files.duration_s <= longest_s)) {
+            return fail("duration: not more than 0 and at most 86400 s");
+        }
         summary.duration_us = static_cast<std::int64_t>(*files.duration_s * 1e6);
     } else if (simulator.duration_us()) {
         summary.duration_us = *simulator.duration_us();

@@ -49,6 +49,7 @@ class Tracker {
 
     /// A sensor started: event time begins anew. Poses are kept; every track that had one looks for
     /// its object around it. Before the first call the stream has no geometry and takes no event.
+    /// The geometry is_usable().
     void begin_stream(Geometry geometry, std::uint64_t stream_id);
 
     /// Takes events in order of time. Those outside the geometry or back in time are dropped and

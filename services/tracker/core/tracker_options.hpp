@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -10,6 +11,13 @@ namespace pursuit::tracker {
 
 /// Event times are below it: beyond, microseconds are no longer whole in a double; 285 years.
 inline constexpr std::int64_t max_t_us = std::int64_t{1} << 53;
+
+/// Images have so many pixels at most, as of 3840×2160: the tracker keeps 16 bytes for each.
+inline constexpr std::size_t max_pixels = std::size_t{1} << 23;
+constexpr bool is_usable(Geometry geometry) {
+    const std::size_t pixels = std::size_t{geometry.width} * geometry.height;
+    return pixels > 0 && pixels <= max_pixels;
+}
 
 /// What a tracker is made with.
 struct TrackerOptions {

@@ -76,6 +76,25 @@ TEST(OfflineTrack, keeps_the_poses_before_an_error_in_the_recording) {
     EXPECT_EQ(test::content_of(task.poses), whole);
 }
 
+TEST(OfflineTrack, does_not_write_over_its_recording) {
+    const test::TemporaryFolder folder;
+    auto task = task_of(folder, standing_square());
+    task.poses = folder.path(".") + "/events.txt";
+    const auto done = track_offline(task);
+    ASSERT_FALSE(done);
+    EXPECT_THAT(done.error().message, HasSubstr("is the input"));
+    EXPECT_EQ(test::content_of(task.events), standing_square());
+}
+
+TEST(OfflineTrack, refuses_an_image_of_more_pixels_than_the_tracker_takes) {
+    const test::TemporaryFolder folder;
+    auto task = task_of(folder, standing_square());
+    task.geometry = Geometry{65'535, 65'535};
+    const auto done = track_offline(task);
+    ASSERT_FALSE(done);
+    EXPECT_THAT(done.error().message, HasSubstr("an image of 65535x65535"));
+}
+
 TEST(OfflineTrack, names_what_it_cannot_use) {
     const test::TemporaryFolder folder;
     const auto error_of = [](const OfflineTrack& task) {

@@ -114,18 +114,20 @@ TEST(StreamFollower, begins_anew_when_a_recording_is_played_again_before_or_afte
     EXPECT_EQ(follower.take(again), PacketFate::begins_stream);
 }
 
-TEST(StreamFollower, refuses_a_packet_without_pixels_and_one_of_another_geometry) {
+TEST(StreamFollower, refuses_a_packet_without_pixels_or_with_too_many_and_one_of_another_geometry) {
     StreamFollower follower(1);
-    auto empty = packet(7, 1);
-    empty.geometry = {0, 240};
-    EXPECT_EQ(follower.take(empty), PacketFate::bad_geometry);
+    for (const Geometry unusable_one : {Geometry{0, 240}, Geometry{65'535, 65'535}}) {
+        auto unusable = packet(7, 1);
+        unusable.geometry = unusable_one;
+        EXPECT_EQ(follower.take(unusable), PacketFate::bad_geometry);
+    }
     follower.take(packet(7, 2));
     auto other = packet(7, 3);
     other.geometry = {640, 480};
     EXPECT_EQ(follower.take(other), PacketFate::bad_geometry);
     EXPECT_EQ(follower.take(packet(7, 4)), PacketFate::continues_stream);
     EXPECT_EQ(follower.counters().gaps, 0U);
-    EXPECT_EQ(follower.counters().bad_geometry, 2U);
+    EXPECT_EQ(follower.counters().bad_geometry, 3U);
 }
 
 }  // namespace
