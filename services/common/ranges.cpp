@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/common/ranges.hpp"
 
+#include <google/protobuf/stubs/strutil.h>
+
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -10,6 +13,12 @@
 
 namespace pursuit {
 namespace {
+
+// A name is a DDS partition, in which '*', '?' and brackets stand for others.
+bool is_name_character(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '.' || c == '-';
+}
 
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
@@ -69,12 +78,17 @@ std::optional<std::string> range_error(const Message& message, const FieldDescri
             return "is " + print(*value) + ", must be at most " +
                    print(options.GetExtension(disk::at_most));
         }
-    } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_STRING && !field.is_repeated() &&
-               options.HasExtension(disk::max_length)) {
-        const auto length = message.GetReflection()->GetString(message, &field).size();
-        if (length > options.GetExtension(disk::max_length)) {
-            return "has " + std::to_string(length) + " bytes, must have at most " +
+    } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_STRING && !field.is_repeated()) {
+        const std::string text = message.GetReflection()->GetString(message, &field);
+        if (options.HasExtension(disk::max_length) &&
+            text.size() > options.GetExtension(disk::max_length)) {
+            return "has " + std::to_string(text.size()) + " bytes, must have at most " +
                    std::to_string(options.GetExtension(disk::max_length));
+        }
+        if (options.GetExtension(disk::is_name) &&
+            !std::all_of(text.begin(), text.end(), is_name_character)) {
+            return "is \"" + google::protobuf::CEscape(text) +
+                   "\", must be of A-Z, a-z, 0-9, '_', '.' and '-'";
         }
     }
     return std::nullopt;

@@ -47,9 +47,14 @@ Result<void> apply_setting(const std::string& name, std::string_view path, const
         return fail(name + ": " + type.name() + " has no field \"" + part->field + "\"");
     }
     const bool last = dot == path.size();
+    const bool is_whole = last && !part->index && !value.empty() && value.front() == '{';
+    if (is_whole && field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
+        return merge_text(part->field + " " + value, name, message);
+    }
     if (last == (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE)) {
-        return fail(name + ": field \"" + part->field + "\" " +
-                    (last ? "is a message, name a field of it" : "has no fields"));
+        return fail(
+            name + ": field \"" + part->field + "\" " +
+            (last ? "is a message: name a field of it, or give it as {…}" : "has no fields"));
     }
     if (part->index && (last || !field->is_repeated())) {
         return fail(name + ": field \"" + part->field + "\" has no numbered messages");

@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
     for (const auto& command : pursuit::ctl::commands()) {
         auto*& group = groups[command.group];
         if (group == nullptr) {
-            group = app.add_subcommand(std::string(command.group));
+            group = app.add_subcommand(std::string(command.group),
+                                       std::string(pursuit::ctl::about(command.group)));
             group->require_subcommand(1);
         }
         auto* own = group->add_subcommand(std::string(command.name), std::string(command.what));

@@ -23,4 +23,7 @@ struct Command {
 
 std::span<const Command> commands();
 
+/// What the commands of a group are for, one line.
+std::string_view about(std::string_view group);
+
 }  // namespace pursuit::ctl

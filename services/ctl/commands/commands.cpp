@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
 #include "services/ctl/commands/command.hpp"
 #include "services/ctl/commands/dds_commands.hpp"
 #include "services/ctl/commands/offline_commands.hpp"
@@ -38,8 +40,24 @@ constexpr Command all_commands[] = {
     {"recorder", "rate", "Replay at another speed", define_recorder_rate},
 };
 
+constexpr std::pair<std::string_view, std::string_view> groups[] = {
+    {"model", "Shapes: made from recordings, tracked or not"},
+    {"strategy", "Who gets an event near several objects"},
+    {"pose", "Where an object is thought to be"},
+    {"parameter", "Constants of the tracker and of its objects"},
+    {"sensor", "Calls on pursuit-sensor"},
+    {"recorder", "Calls on pursuit-recorder"},
+};
+
 }  // namespace
 
 std::span<const Command> commands() { return all_commands; }
+
+std::string_view about(std::string_view group) {
+    for (const auto& [name, what] : groups) {
+        if (name == group) return what;
+    }
+    return "";
+}
 
 }  // namespace pursuit::ctl

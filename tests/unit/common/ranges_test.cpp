@@ -31,6 +31,15 @@ TEST(CheckRanges, names_the_field_by_its_path_where_there_is_no_text) {
     EXPECT_EQ(range_fault(config), "made: field dds.domain is 233, must be at most 232");
 }
 
+TEST(CheckRanges, refuses_a_service_s_name_that_would_be_a_pattern_of_partitions) {
+    disk::SensorConfig config;
+    config.set_name("front_left-2.b");
+    EXPECT_EQ(range_fault(config), "");
+    config.set_name("front*");
+    EXPECT_EQ(range_fault(config),
+              "made: field name is \"front*\", must be of A-Z, a-z, 0-9, '_', '.' and '-'");
+}
+
 TEST(CheckRanges, looks_into_every_message_of_a_repeated_field) {
     disk::Model model;
     for (const float x_px : {1.0F, 2.0F, std::nanf("")}) {

@@ -39,6 +39,22 @@ TEST(ApplySettings, changes_the_numbered_message_of_a_repeated_field) {
     }
 }
 
+TEST(ApplySettings, takes_a_whole_message_in_braces) {
+    disk::TrackerConfig config;
+    ASSERT_TRUE(apply_settings({R"(parameter={name: "coast_s" value: 2})", "dds={domain: 7}",
+                                "parameter={name: 'gate_px' value: 5}"},
+                               config));
+    EXPECT_EQ(config.dds().domain(), 7U);
+    ASSERT_EQ(config.parameter_size(), 2);
+    EXPECT_EQ(config.parameter(0).name(), "coast_s");
+    EXPECT_EQ(config.parameter(1).value(), 5);
+    for (const auto* wrong : {"parameter={name: 'a' valu: 1}", "parameter={name: 'a'", "name={}"}) {
+        const auto ok = apply_settings({wrong}, config);
+        ASSERT_FALSE(ok) << wrong;
+        EXPECT_THAT(ok.error().message, HasSubstr(wrong));
+    }
+}
+
 TEST(ApplySettings, names_the_setting_that_is_wrong) {
     disk::TrackerConfig config;
     for (const auto* wrong :
