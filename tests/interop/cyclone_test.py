@@ -31,11 +31,16 @@ class Cyclone(SystemTest):
                              "star", start["x_px"], start["y_px"], start["theta_rad"], 500, 20,
                              ready=False, environment={"CYCLONEDDS_URI": LOOPBACK})
         self.eventually(lambda: "star" in self.ctl("model", "list"), what="the registration")
+        printing = self.start(os.path.join(os.environ["PURSUIT_TESTS"], "print_poses"),
+                              self.domain.domain, 300, 20, ready=False,
+                              environment={"CYCLONEDDS_URI": LOOPBACK})
         self.service("sensor", scene="star_670rpm", seed=2, wait_for_subscribers=1)
         self.assertEqual(cyclone.wait(30), 0, cyclone.out() + cyclone.err())
         print(cyclone.out())
         self.assertIn("register: code 0", cyclone.out())
         self.assertIn("state 1", cyclone.out())
+        self.assertEqual(printing.wait(30), 0, printing.out()[-500:] + printing.err())
+        self.assertIn("us  star  TRACKING  confidence", printing.out())
 
 
 if __name__ == "__main__":
