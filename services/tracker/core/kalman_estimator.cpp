@@ -29,6 +29,10 @@ constexpr double common_sigma_px = 0.034;
 // Of the motion.
 constexpr double start_pose_sigma_px = 1.2;
 constexpr double start_speed_sigma_px_s = 3000;
+// As it sets out it goes no faster than so many times what its events tell (they may be fewer than
+// usual), and this.
+constexpr double times_told = 3;
+constexpr double set_out_px_s = 30;
 constexpr double resumed_sigma_px = 0.7;
 constexpr double resumed_sigma_of_way = 0.05;
 constexpr double resumed_turn_sigma_px = 0.4;
@@ -72,6 +76,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     trail_.restart();
     clock_.restart();
     clutter_.restart();
+    has_set_out_ = false;
     watch_.restart(pose, velocity);
     usual_way_ = {};
     stands_still_ = false;
@@ -82,7 +87,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     offsets_.restart();
     quiet_.restart();
     levels_.restart();
-    noise_.restart();
+    noise_.restart(parts_.measurement_noise);
     most_pose_sigma_px_ = most_pose_sigma_px;
     residual_px_ = 0.5;
     t_us_ = -1;
@@ -161,7 +166,7 @@ void KalmanEstimator<kind>::set_parameters(const ObjectParameters& parameters) {
     has_leads_ = parts_.leads && !contour_.is_of_events();
     // What a part had learnt goes with it.
     if (!parts_.steadiness) steadiness_.restart();
-    if (!parts_.measurement_noise) noise_.restart();
+    if (!parts_.measurement_noise) noise_.restart(false);
     if (!parts_.noise_watch && watch_.is_on()) watch_.restart(filter_.pose(), velocity());
     if (!parts_.offsets) offsets_.restart();
     if (!parts_.bend) bend_.restart();
@@ -188,9 +193,11 @@ double KalmanEstimator<kind>::effective_length_px() const {
 
 template <TransformKind kind>
 void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
-    if (t_us_ < 0 || !clutter_.is_measured()) {
+    if (!has_set_out_) {
+        if (t_us_ >= 0) clock_.wait(static_cast<double>(t_us - t_us_) * 1e-6);
         t_us_ = t_us;
         unspread_s_ = 0;
+        if (clutter_.is_measured()) set_out();
     }
     const double dt_s = static_cast<double>(t_us - t_us_) * 1e-6;
     if (!(dt_s > 0)) return;
@@ -220,6 +227,21 @@ void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     if (stood_still || unspread_s_ > spread_after_s_) {
         spread(unspread_s_);
         unspread_s_ = 0;
+    }
+}
+
+// Until it is known what is clutter it stands where it was put. How many events came meanwhile says
+// how fast it can be: else the first few, each a part of a pixel beside the contour, would tell of
+// thousands of px/s, and a model that is a pixel wrong would turn and shift before the next come.
+template <TransformKind kind>
+void KalmanEstimator<kind>::set_out() {
+    has_set_out_ = true;
+    clock_.begin_way();
+    if (!parts_.event_clock || !clock_.is_told()) return;
+    const double fastest_px_s =
+        times_told * clock_.speed_px_s(effective_length_px()) + set_out_px_s;
+    for (int i = 0; i < Filter::dof; ++i) {
+        filter_.limit_variance(Filter::dof + i, fastest_px_s * fastest_px_s * unit2(i));
     }
 }
 
@@ -376,6 +398,7 @@ bool KalmanEstimator<kind>::take(double weight) {
     const double share = weight * of_own / (of_own + near_.clutter);
     const bool is_told = clutter_.is_measured();
     clutter_.count_near(near_.piece, share);
+    if (!has_set_out_) clock_.count(weight);
     if (!is_told || stands_still_ || share < least_share) return false;
 
     const double per_variance =

@@ -112,6 +112,7 @@ class KalmanEstimator : public Estimator {
     [[nodiscard]] double unit2(int i) const { return i < 2 ? 1 : size_.per_gyration2; }
     /// Among strong noise, every few ms.
     void look_out(std::int64_t t_us);
+    void set_out();
     void measure_size();
     /// What is known of the leads besides the events.
     void tell_leads();
@@ -173,6 +174,7 @@ class KalmanEstimator : public Estimator {
     Approach near_;
     Pose way_begin_;
     bool stands_still_ = false;  // among noise
+    bool has_set_out_ = false;   // what is clutter is known since the restart
     LeadPrior lead_prior_;
     double visible_share_ = 1;
     UsualWay usual_way_;

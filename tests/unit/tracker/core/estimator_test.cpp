@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "services/tracker/core/estimator.hpp"
 #include "services/tracker/core/event_clock.hpp"
 #include "services/tracker/core/slope.hpp"
@@ -102,6 +104,40 @@ TEST(KalmanEstimator, follows_what_turns_fast_from_its_first_events_on) {
         }
         EXPECT_LT(worst_px, 2) << seed;
     }
+}
+
+// What happens to fire first would turn and shift it, and it would hold on to what is next to it.
+TEST(KalmanEstimator, stays_by_its_start_while_the_first_events_of_a_slow_and_wrong_model_come) {
+    const Shape truly = test::polygon("bar", {{-30, -12}, {30, -12}, {30, 12}, {-30, 12}});
+    const auto truth = [](double t_us) { return pose_of(100 + 40e-6 * t_us, 90, 0); };
+    double worst_px = 0;
+    double sum_px = 0;
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+        std::mt19937 random(seed);
+        std::normal_distribution<float> clicks_px(0, 1);
+        Shape clicked = truly;
+        for (auto& p : clicked.points_px) {
+            p += Eigen::Vector2f(clicks_px(random), clicks_px(random));
+        }
+        auto tracker = std::move(*Tracker::create({}));
+        tracker.begin_stream(small_sensor, 1);
+        Registration registration;
+        registration.shape = clicked;
+        registration.estimator = EstimatorKind::kalman;
+        registration.start.pose = truth(0);
+        ASSERT_TRUE(tracker.register_object(registration));
+        Poses poses;
+        tracker.process(outline_events(truly, truth, 0, 60'000, 160, 0, small_sensor, seed), poses);
+        double off_px = 0;
+        for (const auto& row : poses.rows) {
+            const auto t_us = static_cast<double>(row.record.t_us);
+            off_px = std::max(off_px, rms_px(truly, row.record.pose, truth(t_us)));
+        }
+        worst_px = std::max(worst_px, off_px);
+        sum_px += off_px;
+    }
+    EXPECT_LT(worst_px, 3);
+    EXPECT_LT(sum_px / 10, 1.6);
 }
 
 // What shows of it is the middle of its rear, which does not tell whether it goes down as well.
