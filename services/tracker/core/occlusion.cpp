@@ -13,13 +13,6 @@ constexpr double memory_s = 0.5;
 
 // A contour this deep inside another is told from the other's own.
 constexpr double told_depth_px = 2.5;
-constexpr double least_expected = 20;
-constexpr double hidden_share = 0.25;
-constexpr double front_share = 0.4;
-constexpr double surely_expected = 60;
-constexpr double surely_share = 0.7;
-constexpr double stray_events = 5;
-constexpr double forgotten = 0.5;  // expected events
 
 // How deep a place of the image lies inside a track's contour, image px.
 double image_depth_px(const Track& front, const Eigen::Vector2d& p) {
@@ -46,10 +39,7 @@ void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
     last_us_ = t_us;
     next_us_ = t_us + every_us;
     const double kept = std::exp(-dt_s / memory_s);
-    for (auto& [pair, evidence] : evidence_) {
-        evidence.expected *= kept;
-        evidence.observed *= kept;
-    }
+    for (auto& [pair, evidence] : evidence_) evidence.fade(kept);
 
     overlaps_.clear();
     rounds_.clear();
@@ -77,9 +67,7 @@ void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
     for (const auto& [i, k] : overlaps_) {
         if (is_behind(tracks[i], tracks[k])) hidden_by_[i].push_back(k);
     }
-    std::erase_if(evidence_, [](const auto& pair) {
-        return pair.second.expected < forgotten && pair.second.observed < forgotten;
-    });
+    std::erase_if(evidence_, [](const auto& pair) { return pair.second.is_forgotten(); });
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         Track& track = tracks[i];
         track.end_tally(t_us);
@@ -95,13 +83,12 @@ void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
 }
 
 void Occlusion::gather(const Track& one, const Track& other) {
-    Evidence& evidence = evidence_[{one.object_id(), other.object_id()}];
+    OverlapEvidence& evidence = evidence_[{one.object_id(), other.object_id()}];
     const Pose pose = one.pose();
     for (const Outline::Part& part : one.outline().parts()) {
         const Eigen::Vector2d arm = pose.a * part.middle_px;
         if (image_depth_px(other, pose.t_px + arm) < told_depth_px) continue;
-        evidence.expected += one.expected_events(part, arm);
-        evidence.observed += part.events;
+        evidence.add(one.expected_events(part, arm), part.events);
     }
 }
 
@@ -112,24 +99,8 @@ bool Occlusion::is_behind(const Track& one, const Track& other) {
 
     const auto found = evidence_.find({one.object_id(), other.object_id()});
     if (found == evidence_.end()) return false;
-    Evidence& evidence = found->second;
     const auto reverse = evidence_.find({other.object_id(), one.object_id()});
-    const Evidence none;
-    const Evidence& of_other = reverse == evidence_.end() ? none : reverse->second;
-    const bool is_missing = evidence.expected > least_expected &&
-                            evidence.observed < hidden_share * evidence.expected &&
-                            of_other.observed > front_share * of_other.expected;
-    // What hardly moves across itself misses little; that the other is seen tells as well.
-    const bool other_is_seen = of_other.expected > surely_expected &&
-                               of_other.observed > surely_share * of_other.expected &&
-                               evidence.observed < front_share * evidence.expected + stray_events;
-    if (is_missing || other_is_seen) {
-        evidence.is_behind = true;
-    } else if (evidence.expected > least_expected &&
-               evidence.observed > front_share * evidence.expected) {
-        evidence.is_behind = false;
-    }
-    return evidence.is_behind;
+    return found->second.decide(reverse == evidence_.end() ? OverlapEvidence() : reverse->second);
 }
 
 bool Occlusion::is_hidden(std::size_t index, const Event& event,

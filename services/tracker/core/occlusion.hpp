@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/common/event.hpp"
+#include "services/tracker/core/overlap_evidence.hpp"
 #include "services/tracker/core/track.hpp"
 
 namespace pursuit::tracker {
@@ -45,13 +46,6 @@ class Occlusion {
     static constexpr double band_px = 1.5;
 
  private:
-    /// Of one object's contour inside another.
-    struct Evidence {
-        double expected = 0;
-        double observed = 0;
-        bool is_behind = false;
-    };
-
     using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< Ids of the inner one and the other.
 
     /// What tells at a glance whether two tracks may overlap.
@@ -75,9 +69,9 @@ class Occlusion {
 
     std::int64_t next_us_ = 0;
     std::int64_t last_us_ = -1;
-    std::map<Pair, Evidence> evidence_;
-    std::vector<Round> rounds_;        // by index
-    std::vector<std::size_t> fronts_;  // those that can hide others
+    std::map<Pair, OverlapEvidence> evidence_;  // of the inner one's contour
+    std::vector<Round> rounds_;                 // by index
+    std::vector<std::size_t> fronts_;           // those that can hide others
     std::vector<Overlap> overlaps_;
     std::vector<std::vector<std::size_t>> hidden_by_;  // by index: those in front of it
 };
