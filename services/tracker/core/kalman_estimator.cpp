@@ -75,6 +75,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     lead_prior_.restart();
     trail_.restart();
     clock_.restart();
+    pace_.restart();
     clutter_.restart();
     has_set_out_ = false;
     watch_.restart(pose, velocity);

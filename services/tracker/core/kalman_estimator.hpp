@@ -13,6 +13,7 @@
 #include "services/tracker/core/lead_prior.hpp"
 #include "services/tracker/core/measurement_noise.hpp"
 #include "services/tracker/core/noise_watch.hpp"
+#include "services/tracker/core/pace.hpp"
 #include "services/tracker/core/pixel_levels.hpp"
 #include "services/tracker/core/quiet_facings.hpp"
 #include "services/tracker/core/steadiness.hpp"
@@ -24,9 +25,9 @@ namespace pursuit::tracker {
 /// The filter: measures the signed distance of each event along the contour's normal, less the lead
 /// that events have on a moving edge (LeadPrior, Backlash, Trail), or beside where it was as the
 /// event's pixel was at this level before (PixelLevels). How fast the object can turn
-/// away is told by the event clock and by how steadily it goes (Steadiness), how much of what comes
-/// is the object's by the measured clutter. What a full affine transform leaves of a perspective
-/// view, a Bend explains.
+/// away is told by the event clock, by how fast it has gone of late (Pace) and by how steadily it
+/// goes (Steadiness), how much of what comes is the object's by the measured clutter. What a full
+/// affine transform leaves of a perspective view, a Bend explains.
 template <TransformKind kind>
 class KalmanEstimator : public Estimator {
  public:
@@ -156,6 +157,7 @@ class KalmanEstimator : public Estimator {
     KalmanParts parts_;
     bool has_leads_ = true;
     Filter filter_;
+    Pace pace_;
     Steadiness<M::dof> steadiness_;
     Size size_;
     EventClock clock_;

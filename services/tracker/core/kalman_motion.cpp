@@ -39,9 +39,12 @@ void KalmanEstimator<kind>::spread(double dt_s) {
     const double told_px_s = parts_.event_clock ? clock_.speed_px_s(length_px) : own_px_s;
     const double at_most = std::max(std::min(own_px_s, 2 * told_px_s), told_px_s);
     set_speed(std::sqrt(at_most * at_most + still_px_s * still_px_s));
+    pace_.go(dt_s, speed_px_s_);
+    const double pace_px_s =
+        parts_.pace ? pace_.px_s(speed_px_s_, clutter_.own_share()) : speed_px_s_;
     // What shows of it by half tells by half where it turns.
     const double q =
-        kappa * kappa * speed_px_s_ * speed_px_s_ * speed_px_s_ * visible_share_ * visible_share_;
+        kappa * kappa * pace_px_s * pace_px_s * pace_px_s * visible_share_ * visible_share_;
     Step noise = step_of(q, q * size_.per_gyration2);
     if constexpr (kind == TransformKind::similarity) noise(3) *= 0.2 * 0.2;
     if constexpr (kind == TransformKind::paper_affine) noise.template tail<2>() *= 0.7 * 0.7;
@@ -50,7 +53,7 @@ void KalmanEstimator<kind>::spread(double dt_s) {
     // would be taken for turning.)
     const double most_share = uses_levels() ? 1 + turns_back * levels_.crossed_again() : 1;
     if (parts_.steadiness) {
-        steadiness_.go(speed_px_s_ * dt_s, M::omega(filter_.twist()) * dt_s, filter_.twist(),
+        steadiness_.go(pace_px_s * dt_s, M::omega(filter_.twist()) * dt_s, filter_.twist(),
                        noise * dt_s, most_share);
     }
     noise = noise.cwiseProduct(steadiness_.share());

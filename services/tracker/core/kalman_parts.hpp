@@ -11,6 +11,7 @@ namespace pursuit::tracker {
 struct KalmanParts {
     explicit KalmanParts(const ObjectParameters& parameters)
         : event_clock(is_set(parameters.uses_event_clock)),
+          pace(is_set(parameters.remembers_pace)),
           leads(is_set(parameters.uses_leads)),
           lead_physics(is_set(parameters.holds_leads)),
           trail(is_set(parameters.learns_trail)),
@@ -26,6 +27,7 @@ struct KalmanParts {
           bend(is_set(parameters.learns_bend)) {}
 
     bool event_clock;    ///< EventClock: how fast the object can turn away. Else its own velocity.
+    bool pace;           ///< Pace
     bool leads;          ///< Events come ahead of an edge. Else on it; then none of the next five.
     bool lead_physics;   ///< LeadPrior: leads are held to what pixels make. Else the events' alone.
     bool trail;          ///< Trail

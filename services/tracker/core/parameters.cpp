@@ -29,6 +29,9 @@ constexpr std::array object_table{
     part_of_kalman("uses_event_clock", &ObjectParameters::uses_event_clock,
                    "1: the rate of its events tells kalman how fast an object can turn away; 0: "
                    "its velocity alone"),
+    part_of_kalman("remembers_pace", &ObjectParameters::remembers_pace,
+                   "1: kalman is as ready for a turn as the speed of the last 0.15 s wants; 0: as "
+                   "that of the moment does"),
     part_of_kalman("uses_leads", &ObjectParameters::uses_leads,
                    "1: for kalman events come ahead of an edge that moves; 0: on it (then trail, "
                    "contrast, polarity and levels are off, too)"),

@@ -25,6 +25,7 @@ struct ObjectParameters {
     double let_go_sharpness = 0.31;
     double depth_order = 0;
     double uses_event_clock = 1;
+    double remembers_pace = 1;
     double uses_leads = 1;
     double holds_leads = 1;
     double learns_trail = 1;

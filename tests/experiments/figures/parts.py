@@ -9,6 +9,7 @@ from trackers import OURS, Pursuit
 # The switch, and what is left out with it at 0 (`pursuitctl parameters`).
 PARTS = (
     ("uses_event_clock", "event clock"),
+    ("remembers_pace", "pace"),
     ("uses_leads", "leads, and all that goes with them"),
     ("holds_leads", "physics of the leads"),
     ("learns_trail", "trail"),

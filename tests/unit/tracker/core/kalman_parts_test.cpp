@@ -90,10 +90,10 @@ TEST_P(LeftOut, changes_the_poses_and_the_object_is_followed_without_it) {
 
 INSTANTIATE_TEST_SUITE_P(
     EveryPart, LeftOut,
-    testing::Values(Part{"uses_event_clock"}, Part{"uses_leads"}, Part{"holds_leads"},
-                    Part{"learns_trail"}, Part{"tells_contrast"}, Part{"tells_polarity"},
-                    Part{"remembers_levels"}, Part{"hears_silence"}, Part{"learns_steadiness"},
-                    Part{"measures_clutter"}, Part{"adapts_noise"},
+    testing::Values(Part{"uses_event_clock"}, Part{"remembers_pace"}, Part{"uses_leads"},
+                    Part{"holds_leads"}, Part{"learns_trail"}, Part{"tells_contrast"},
+                    Part{"tells_polarity"}, Part{"remembers_levels"}, Part{"hears_silence"},
+                    Part{"learns_steadiness"}, Part{"measures_clutter"}, Part{"adapts_noise"},
                     Part{"watches_noise", TransformKind::isometry, 900, 1, 0, 12},
                     Part{"learns_offsets", TransformKind::isometry, 20, 1.05, 0, 2, 2'000'000},
                     Part{"learns_bend", TransformKind::full_affine, 20, 1, 0.1, 3}),
@@ -102,16 +102,16 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(KalmanParts, are_all_in_use_and_none_is_where_all_are_left_out) {
     ObjectParameters parameters;
     const KalmanParts all(parameters);
-    EXPECT_TRUE(all.event_clock && all.leads && all.lead_physics && all.trail && all.contrast &&
-                all.polarity && all.levels && all.quiet_facings && all.steadiness && all.clutter &&
-                all.measurement_noise && all.noise_watch && all.offsets && all.bend);
+    EXPECT_TRUE(all.event_clock && all.pace && all.leads && all.lead_physics && all.trail &&
+                all.contrast && all.polarity && all.levels && all.quiet_facings && all.steadiness &&
+                all.clutter && all.measurement_noise && all.noise_watch && all.offsets && all.bend);
     for (const auto& line : object_parameter_table()) {
         if (line.min == 0 && line.max == 1 && parameters.*(line.member) == 1) {
             parameters.*(line.member) = 0;
         }
     }
     const KalmanParts none(parameters);
-    EXPECT_FALSE(none.event_clock || none.leads || none.lead_physics || none.trail ||
+    EXPECT_FALSE(none.event_clock || none.pace || none.leads || none.lead_physics || none.trail ||
                  none.contrast || none.polarity || none.levels || none.quiet_facings ||
                  none.steadiness || none.clutter || none.measurement_noise || none.noise_watch ||
                  none.offsets || none.bend);
@@ -124,7 +124,7 @@ TEST(KalmanParts, can_all_be_left_out_and_put_back_while_an_object_is_followed) 
             left_out.push_back({std::string(line.name), 0});
         }
     }
-    ASSERT_EQ(left_out.size(), 14U);
+    ASSERT_EQ(left_out.size(), 15U);
     std::vector<NamedValue> put_back = left_out;
     for (NamedValue& value : put_back) value.value = 1;
     Tracker tracker = test::that_follows_an_arrow(truth(0));
