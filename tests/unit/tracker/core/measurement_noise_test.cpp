@@ -94,7 +94,7 @@ TEST(MeasurementNoise, takes_a_model_for_somewhat_wrong_until_its_events_tell_ot
     MeasurementNoise noise;
     const double usual_px2 = settled().at(0, 0, false).near_px2;
     const double first_px2 = noise.at(0, 0, false).near_px2;
-    EXPECT_GT(first_px2, usual_px2 + 0.5 * 0.5);
+    EXPECT_GT(first_px2, usual_px2 + 0.35 * 0.35);
     EXPECT_LT(first_px2, usual_px2 + 0.7 * 0.7);
 }
 
