@@ -63,14 +63,13 @@ Cover::Cover(const Contour& contour) {
         numbers->resize(static_cast<Eigen::Index>(order.size()));
     }
     std::vector<std::uint8_t> sector(first.size());
-    std::size_t begun = 0;
     double before_px = 0;
     for (const std::size_t part : order) {
         const double at = before_px / std::max(contour.length_px(), 1e-9);
         const std::size_t in = std::min(static_cast<std::size_t>(at * sectors), sectors - 1);
         sector[part] = static_cast<std::uint8_t>(in);
         before_px += length_px[part];
-        while (begun < in) begin_[++begun] = piece_.size();
+        sector_of_part_.push_back(sector[part]);
 
         const Piece& piece = pieces[first[part]];
         const auto i = static_cast<Eigen::Index>(piece_.size());
@@ -84,7 +83,6 @@ Cover::Cover(const Contour& contour) {
         along_px_.y(i) = (piece.by - piece.ay) * longer;
         sideways_px_(i) = sideways_share * own_px * longer;
     }
-    while (begun < sectors) begin_[++begun] = piece_.size();
     for (const std::size_t part : part_of) sector_of_.push_back(sector[part]);
 }
 
@@ -104,29 +102,26 @@ void Cover::close_window(const Outline& outline, const Pose& pose, const Velocit
     Eigen::Matrix2d rate_of_d;
     rate_of_d << growth, -turn, turn, growth;
     const Eigen::Matrix2d g = rate_of_d * a;
-    const Vectors speed{velocity.vx_px_s + g(0, 0) * middle_px_.x + g(0, 1) * middle_px_.y,
-                        velocity.vy_px_s + g(1, 0) * middle_px_.x + g(1, 1) * middle_px_.y};
-    double fastest2 = 0;
-    for (Eigen::Index i = 0; i < speed.x.size(); ++i) {
-        fastest2 = std::max(fastest2, speed.x(i) * speed.x(i) + speed.y(i) * speed.y(i));
-    }
+    const MomentaryVectors speed{
+        velocity.vx_px_s + g(0, 0) * middle_px_.x + g(0, 1) * middle_px_.y,
+        velocity.vy_px_s + g(1, 0) * middle_px_.x + g(1, 1) * middle_px_.y};
+    const double fastest2 =
+        speed.x.size() > 0 ? (speed.x * speed.x + speed.y * speed.y).maxCoeff() : 0;
     const double per_fastest = 1 / std::max(1e-9, std::sqrt(fastest2));
-    const Vectors along{a(0, 0) * along_px_.x + a(0, 1) * along_px_.y,
-                        a(1, 0) * along_px_.x + a(1, 1) * along_px_.y};
+    const MomentaryVectors along{a(0, 0) * along_px_.x + a(0, 1) * along_px_.y,
+                                 a(1, 0) * along_px_.x + a(1, 1) * along_px_.y};
     // As long as it is in the image, but for what A stretches it more or less than others.
     const double scale = std::sqrt(std::abs(a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0)));
-    const Numbers shows =
+    const MomentaryNumbers shows =
         (along.x * speed.y - along.y * speed.x).abs() * per_fastest + scale * sideways_px_;
     std::array<double, sectors> rate{};
-    double sum = 0;
-    for (std::size_t sector = 0; sector < sectors; ++sector) {
-        double of_sector = 0;
-        for (std::size_t i = begin_[sector]; i < begin_[sector + 1]; ++i) {
-            if (outline.can_be_seen(piece_[i])) of_sector += shows(static_cast<Eigen::Index>(i));
-        }
-        rate[sector] = of_sector;
-        sum += of_sector;
+    // (In one loop over all parts: of how many there are in a sector, nobody can foresee.)
+    for (std::size_t i = 0; i < piece_.size(); ++i) {
+        const double shown = shows(static_cast<Eigen::Index>(i));
+        rate[sector_of_part_[i]] += outline.can_be_seen(piece_[i]) ? shown : 0;
     }
+    double sum = 0;
+    for (const double of_sector : rate) sum += of_sector;
     double counted = 0;
     double expected = 0;
     for (std::size_t i = 0; i < sectors; ++i) {

@@ -44,15 +44,22 @@ class Cover {
     static constexpr int usual_parts = 40;
     static constexpr int most_parts = 1024;
 
-    using Numbers = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_parts, 1>;
+    // By part. (Not in the object itself: that would make a track as large as its contour may be,
+    // and many tracks would lie on as many pages of memory.)
+    using Numbers = Eigen::ArrayXd;
     struct Vectors {
         Numbers x, y;
     };
+    /// The same for a moment: nothing is allocated.
+    using MomentaryNumbers = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_parts, 1>;
+    struct MomentaryVectors {
+        MomentaryNumbers x, y;
+    };
 
-    std::vector<std::uint8_t> sector_of_;           // by piece
-    std::array<std::size_t, sectors + 1> begin_{};  // of each sector's parts
-    std::vector<std::int32_t> piece_;               // by part: its first
-    Vectors middle_px_;                             // model frame
+    std::vector<std::uint8_t> sector_of_;  // by piece
+    std::vector<std::uint8_t> sector_of_part_;
+    std::vector<std::int32_t> piece_;  // by part: its first
+    Vectors middle_px_;                // model frame
     Vectors along_px_;
     Numbers sideways_px_;  // what it makes however it moves
     std::array<double, sectors> counted_{};

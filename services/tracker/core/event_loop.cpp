@@ -164,7 +164,9 @@ void EventLoop::wake(std::int64_t t_us) {
                                                                   const PixelPast& past) {
     Track& track = tracks_[index];
     const Approach* const near = track.approach(event, past);
-    if (near != nullptr && tells_occlusion_ && occlusion_.hides(index, event, tracks_)) {
+    // (How many tracks there are takes a division, so who needs it is asked for first.)
+    if (near != nullptr && tells_occlusion_ && occlusion_.has_over(index) &&
+        occlusion_.hides(index, event, tracks_)) {
         track.deny();
         return nullptr;
     }

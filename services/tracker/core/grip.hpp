@@ -67,10 +67,13 @@ class Grip {
         if (!is_against && against_us_ == 0) return;
         against_us_ = std::max<std::int64_t>(against_us_ + (is_against ? dt_us : -2 * dt_us), 0);
     }
-    /// To be called often: where they come from, when enough came, every 2 ms at most.
+    /// Whether enough came to look where they come from, every 2 ms at most.
+    [[nodiscard]] bool is_due_to_look(std::int64_t t_us) const {
+        return cover_.is_due() && t_us - looked_us_ >= look_every_us;
+    }
+    /// Looks where they come from.
     void look_around(std::int64_t t_us, const Outline& outline, const Pose& pose,
                      const Velocity& velocity) {
-        if (!cover_.is_due() || t_us - looked_us_ < look_every_us) return;
         looked_us_ = t_us;
         cover_.close_window(outline, pose, velocity);
     }

@@ -34,12 +34,15 @@ class Occlusion {
         return hidden_by_[index];
     }
 
+    /// Whether any lies over it. `index` as of the last look().
+    [[nodiscard]] bool has_over(std::size_t index) const {
+        return index < hidden_by_.size() && !hidden_by_[index].empty();
+    }
     /// Whether an event at this place cannot be the object's, because another lies over it.
-    /// `index` and `tracks` as of the last look().
+    /// `index` and `tracks` as of the last look(); has_over() holds.
     [[nodiscard]] bool hides(std::size_t index, const Event& event,
                              std::span<const Track> tracks) const {
-        return index < hidden_by_.size() && !hidden_by_[index].empty() &&
-               is_hidden(index, event, tracks);
+        return is_hidden(index, event, tracks);
     }
 
     /// A contour this near outside that of what lies over it is hidden in the other's events.

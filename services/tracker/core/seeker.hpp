@@ -88,7 +88,8 @@ class Seeker {
     std::vector<Event> gathered_;
     std::vector<std::uint8_t> neighbours_;  // that fired shortly before, of each gathered
     ChanceSupport chance_;
-    std::vector<std::int64_t> fired_us_;  // by pixel looked at, while gathering; never in between
+    // By pixel looked at, while gathering, since the first that is looked at; never in between.
+    std::vector<std::int32_t> fired_us_;
     std::vector<Over> over_;
     std::vector<std::size_t> looked_at_;  // the pixels
     FiredMap map_;

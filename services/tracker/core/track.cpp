@@ -218,7 +218,9 @@ void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
             look_for_blind_parts(t_us, estimator_->pose(), estimator_->velocity(), radius_px(),
                                  pixels, outline_);
         }
-        grip_.look_around(t_us, outline_, estimator_->pose(), estimator_->velocity());
+        if (grip_.is_due_to_look(t_us)) {
+            grip_.look_around(t_us, outline_, estimator_->pose(), estimator_->velocity());
+        }
         estimator_->look_about(t_us, pixels);
     }
     if (vanishing_.is_gone(t_us)) {

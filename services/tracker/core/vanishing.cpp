@@ -45,6 +45,10 @@ Vanishing::Vanishing(const Silhouette& silhouette, double radius_px) {
     columns_ = static_cast<std::size_t>(inner_columns) + 2;  // with a rim that is nowhere
     cells_per_px_ = inner_columns / (2 * about_end_px);
     middle_ = static_cast<double>(columns_) / 2;
+    // A cell reaches no farther from its own centre than this.
+    constexpr double half_diagonal = 0.75;
+    const double farthest_cells = about_end_px * cells_per_px_ + half_diagonal;
+    farthest2_cells2_ = farthest_cells * farthest_cells;
     map_.assign(columns_ * columns_, nowhere);
     const double place_px2 = 1 / (cells_per_px_ * cells_per_px_);
 

@@ -49,12 +49,14 @@ class Vanishing {
         const Eigen::Vector2d q = Eigen::Vector2d(event.x, event.y) - pose.t_px;
         const double determinant = a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0);
         const double cells_per_determinant = cells_per_px_ / determinant;
+        const double right = (a(1, 1) * q.x() - a(0, 1) * q.y()) * cells_per_determinant;
+        const double down = (a(0, 0) * q.y() - a(1, 0) * q.x()) * cells_per_determinant;
+        // Farther away there is nothing in the map: of many objects' maps that is not in the cache.
+        if (right * right + down * down > farthest2_cells2_) return;
         // The map's rim is nowhere.
         const double last = 2 * middle_ - 1;
-        const double column =
-            clamped((a(1, 1) * q.x() - a(0, 1) * q.y()) * cells_per_determinant + middle_, 0, last);
-        const double row =
-            clamped((a(0, 0) * q.y() - a(1, 0) * q.x()) * cells_per_determinant + middle_, 0, last);
+        const double column = clamped(right + middle_, 0, last);
+        const double row = clamped(down + middle_, 0, last);
         const std::uint8_t cell =
             map_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
         if (cell == nowhere) return;
@@ -130,6 +132,7 @@ class Vanishing {
 
     double middle_ = 0;  // of the map, a square about the centre: half as many cells as it has
     double cells_per_px_ = 1;
+    double farthest2_cells2_ = 0;  // from the centre, of a place that is somewhere, squared
     std::size_t columns_ = 0;
     std::vector<std::uint8_t> map_;         // which cell of the inside, or about, or nowhere
     std::array<double, cells> cell_px2_{};  // model frame

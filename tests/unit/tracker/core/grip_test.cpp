@@ -35,6 +35,23 @@ TEST(Grip, is_lost_when_events_have_spoken_against_the_pose_for_60_ms) {
     EXPECT_LT(grip.fit(), 0.3);
 }
 
+TEST(Grip, looks_where_events_come_from_when_enough_came_and_every_2_ms_at_most) {
+    const Contour contour(test::arrow());
+    const Outline outline(contour);
+    Grip grip(contour);
+    const auto count_places = [&] {
+        for (int i = 0; i < 100; ++i) grip.count_place(0);
+    };
+    EXPECT_FALSE(grip.is_due_to_look(10'000));
+    count_places();
+    ASSERT_TRUE(grip.is_due_to_look(10'000));
+    grip.look_around(10'000, outline, {}, {1000, 0, 0, 0, 0});
+    EXPECT_FALSE(grip.is_due_to_look(13'000));
+    count_places();
+    EXPECT_FALSE(grip.is_due_to_look(11'999));
+    EXPECT_TRUE(grip.is_due_to_look(12'000));
+}
+
 TEST(Grip, is_not_lost_while_the_object_is_seen_among_noise) {
     Grip grip{Contour(test::arrow())};
     hold_grip(grip, 0, 200'000, 1);
