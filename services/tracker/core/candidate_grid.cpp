@@ -146,12 +146,14 @@ struct CandidateGrid::Divider {
 
     Cell cell_of(const List& kept) {
         if (kept == last_list) return last_cell;
-        const std::size_t same = kept.size() == 1 ? 0 : 1;
         last_list = kept;
+        if (kept.size() <= 2) {
+            last_cell = {kept.back(), 1, kept.front()};
+            return last_cell;
+        }
         last_cell = {static_cast<std::uint32_t>(grid.others_.size()),
-                     static_cast<std::uint16_t>(kept.size() - same), kept.front()};
-        grid.others_.insert(grid.others_.end(), kept.begin() + static_cast<std::ptrdiff_t>(same),
-                            kept.end());
+                     static_cast<std::uint16_t>(kept.size() - 1), kept.front()};
+        grid.others_.insert(grid.others_.end(), kept.begin() + 1, kept.end());
         return last_cell;
     }
 };

@@ -122,19 +122,17 @@ class CandidateGrid {
         if (!(column >= 0 && row >= 0 && column < columns_ && row < rows_)) return {};
         const Cell cell = cells_[place_of(static_cast<int>(column), static_cast<int>(row))];
         if (cell.others == 0) return {};
-        const std::uint16_t* const others = others_.data() + cell.at;
         const auto see_point = [&](std::uint16_t i) __attribute__((always_inline)) {
             return seen_point(i, x, y, metric);
         };
         const auto see = [&](std::uint16_t i) __attribute__((always_inline)) {
             return seen(i, x, y, metric);
         };
-        return are_points_ ? nearest_of(cell.first, others, cell.others, see_point)
-                           : nearest_of(cell.first, others, cell.others, see);
+        return are_points_ ? nearest_in(cell, see_point) : nearest_in(cell, see);
     }
 
     /// Whether a place is beyond the reach of every piece; may deny it close to that.
-    [[nodiscard]] bool is_beyond(double x, double y) const {
+    [[nodiscard, gnu::always_inline]] bool is_beyond(double x, double y) const {
         const double column = (x - left_px_) * cells_per_px_;
         const double row = (y - top_px_) * cells_per_px_;
         return !(column >= 0 && row >= 0 && column < columns_ && row < rows_) ||
@@ -149,7 +147,7 @@ class CandidateGrid {
         const auto see = [&](std::uint16_t i) __attribute__((always_inline)) {
             return seen(i, x, y, metric);
         };
-        return nearest_of(pieces.front(), pieces.data() + 1, pieces.size() - 1, see);
+        return nearest_of(see(pieces.front()), pieces.data() + 1, pieces.size() - 1, see);
     }
 
     [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
@@ -174,17 +172,25 @@ class CandidateGrid {
     /// which. Without others there is none at all. (The first stands here, since every lookup
     /// waits for it.)
     struct Cell {
-        std::uint32_t at = 0;  ///< In others_.
+        std::uint32_t at = 0;  ///< In others_; of one, which it is.
         std::uint16_t others = 0;
         std::uint16_t first = 0;
     };
 
+    template <class See>
+    [[nodiscard, gnu::always_inline]] Nearest nearest_in(const Cell& cell, const See& see) const {
+        if (cell.others == 1) {
+            const auto other = static_cast<std::uint16_t>(cell.at);
+            return nearest_of(see(cell.first), &other, 1, see);
+        }
+        return nearest_of(see(cell.first), others_.data() + cell.at, cell.others, see);
+    }
+
     // Without a branch that nobody could foresee: a squared distance is ordered as its bits are.
     template <class See>
-    [[nodiscard, gnu::always_inline]] static Nearest nearest_of(std::uint16_t first,
+    [[nodiscard, gnu::always_inline]] static Nearest nearest_of(Nearest best,
                                                                 const std::uint16_t* others,
                                                                 std::size_t count, const See& see) {
-        Nearest best = see(first);
         auto squared = std::bit_cast<std::int64_t>(best.squared_px);
         auto foot = std::bit_cast<std::int64_t>(best.foot);
         for (const std::uint16_t* const end = others + count; others != end; ++others) {

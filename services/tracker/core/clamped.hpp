@@ -21,4 +21,13 @@ namespace pursuit::tracker {
 #endif
 }
 
+/// The same without a lower bound.
+[[nodiscard, gnu::always_inline]] inline double at_most(double value, double high) {
+#ifdef __SSE2__
+    return _mm_cvtsd_f64(_mm_min_sd(_mm_set_sd(value), _mm_set_sd(high)));
+#else
+    return std::min(value, high);
+#endif
+}
+
 }  // namespace pursuit::tracker

@@ -34,7 +34,12 @@ class EdgePolarity {
         const double told = signs[polarity] * edge.forth;
         const double likelihood = 1 + side * edge.trust * told;
         // Nearly always it goes one way: nobody shall wait for a quotient then.
-        if (std::abs(side) == 1) return {side * edge.gone[side * told > 0], likelihood};
+        // (Both are fetched before it is known which one it is.)
+        if (std::abs(side) == 1) {
+            const double against = edge.gone[0];
+            const double agreeing = edge.gone[1];
+            return {side * (side * told > 0 ? agreeing : against), likelihood};
+        }
         return {(side * edge.trust + told) / likelihood, likelihood};
     }
 

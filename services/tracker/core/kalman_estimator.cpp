@@ -193,7 +193,7 @@ double KalmanEstimator<kind>::effective_length_px() const {
 }
 
 template <TransformKind kind>
-void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
+[[gnu::always_inline]] inline void KalmanEstimator<kind>::predict_to(std::int64_t t_us) {
     if (!has_set_out_) {
         if (t_us_ >= 0) clock_.wait(static_cast<double>(t_us - t_us_) * 1e-6);
         t_us_ = t_us;
@@ -294,11 +294,16 @@ template <TransformKind kind>
 template <TransformKind kind>
 double KalmanEstimator<kind>::lead_px(std::int32_t piece, int lead) const {
     const auto& leads_px = filter_.lead_px();
-    if (!parts_.contrast) return leads_px(lead);
     const int first = lead & ~1;
-    const double earlier_px =
-        contrast_.earlier(piece, first / 2) * (leads_px(first) - leads_px(first + 1));
-    return clamped(leads_px(lead) + earlier_px, least_lead_px, most_lead_px);
+    const double first_px = leads_px(first);
+    const double subsequent_px = leads_px(first + 1);
+    if (!parts_.contrast) return lead == first ? first_px : subsequent_px;
+    const double earlier_px = contrast_.earlier(piece, first >> 1) * (first_px - subsequent_px);
+    // Both: which of them it is, is known late.
+    const double of_first_px = clamped(first_px + earlier_px, least_lead_px, most_lead_px);
+    const double of_subsequent_px =
+        clamped(subsequent_px + earlier_px, least_lead_px, most_lead_px);
+    return lead == first ? of_first_px : of_subsequent_px;
 }
 
 template <TransformKind kind>
@@ -326,13 +331,17 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     const Segment& segment = contour_.pieces().segment(place.piece);
     const int polarity = event.polarity & 1;
     double h = 0;
-    std::int64_t since_us = past.since_same_us;
+    // With the polarity of the last event of its pixel, and with any.
+    const bool follows_same = static_cast<double>(past.since_same_us) < same_edge_us_;
+    const auto since_any_us = std::min(past.since_same_us, past.since_other_us);
+    const bool follows_any = static_cast<double>(since_any_us) < same_edge_us_;
+    bool subsequent = follows_same;
     measured_.settled_side = 0;
     measured_.of_polarity = 1;
     if (has_leads_) {
         // Where the edge turned back it is in the midst of the pixels that made its last events.
         // (As of the piece's last event: which lead it is shall not wait for the way since.)
-        if (backlash_.has_turned(place.piece)) since_us = std::min(since_us, past.since_other_us);
+        subsequent = backlash_.has_turned(place.piece) ? follows_any : follows_same;
         const Eigen::Vector2d middle(segment.ax + segment.dx / 2, segment.ay + segment.dy / 2);
         const double side = backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
         const auto told = edge_polarity_.tell(place.piece, polarity, side);
@@ -340,7 +349,6 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
         if (parts_.polarity) measured_.of_polarity = told.likelihood;
         if (backlash_.is_settled(place.piece)) measured_.settled_side = side;
     }
-    const bool subsequent = static_cast<double>(since_us) < same_edge_us_;
     const int lead = 2 * polarity + (subsequent ? 1 : 0);
     const Step j = M::along(place.n, place.arm_px, pose.a, place.model_px);
     double ahead_px = 0;
@@ -348,8 +356,8 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     // Where it goes on as it went, its velocity says how far since the pixel fired.
     measured_.has_way = parts_.trail && measured_.settled_side != 0 && std::abs(h) > 0.9;
     if (measured_.has_way) {
-        const auto ago_us = static_cast<double>(std::min(past.since_same_us, past.since_other_us));
-        measured_.way_px = 1e-6 * ago_us * std::abs(j.dot(filter_.twist()));
+        measured_.way_px =
+            1e-6 * static_cast<double>(since_any_us) * std::abs(j.dot(filter_.twist()));
         ahead_px = trail_.ahead(lead, measured_.way_px);
         is_late = Trail::is_late(lead, measured_.way_px);
     }
@@ -370,7 +378,7 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     measured_.has_side = segment.per_length2 > 0;
     measured_.lead = lead;
     measured_.event = event;
-    measured_.since_us = std::min(past.since_same_us, past.since_other_us);
+    measured_.since_us = since_any_us;
     measured_.place_px = place.r_px;
     measured_.along = j;
     measured_.told = noise_.at(r_px, measured_.row.h_p_h, subsequent || is_late);
@@ -404,6 +412,9 @@ bool KalmanEstimator<kind>::take(double weight) {
 
     const double per_variance =
         weight * told.share_per_variance(measured_.of_polarity, near_.clutter, measured_.row.h_p_h);
+    // Before the correction, which the next event waits for: it is done while that waits for its
+    // quotients, and not after them.
+    learn(r, share);
     if (watch_.is_on()) {
         const double doubt = (1 / share - 1) * r * r * per_variance;
         filter_.correct(measured_.row, r, per_variance, 1 - doubt);
@@ -420,7 +431,7 @@ bool KalmanEstimator<kind>::take(double weight) {
                           share);
         }
     }
-    learn(r, share);
+    if (lead_prior_.count(measured_.lead, share) && parts_.lead_physics) tell_leads();
     most_pose_sigma_px_ =
         most_pose_sigma_px + bound_settles * (most_pose_sigma_px_ - most_pose_sigma_px);
     return true;
@@ -461,14 +472,14 @@ template <TransformKind kind>
     if (parts_.measurement_noise) noise_.learn(r_px, measured_.told, share);
     residual_px_ += 0.01 * share * (std::abs(r_px) - residual_px_);
     if (parts_.offsets && measured_.has_side) offsets_.learn(near_.piece, r_px, share);
-    if (std::abs(measured_.settled_side) >= 1) {
-        edge_polarity_.learn(near_.piece, measured_.lead / 2, measured_.settled_side, share);
-    }
-    contrast_.count(near_.piece, measured_.lead / 2, measured_.lead % 2 == 1, share);
+    // (Of what is not settled, nothing: nobody can foresee which it is.)
+    const int polarity = measured_.lead >> 1;
+    const double settled_share = std::abs(measured_.settled_side) >= 1 ? share : 0;
+    edge_polarity_.learn(near_.piece, polarity, measured_.settled_side, settled_share);
+    contrast_.count(near_.piece, polarity, (measured_.lead & 1) != 0, share);
     if (measured_.has_way) {
         trail_.learn(measured_.lead, measured_.way_px, r_px * measured_.gone, share);
     }
-    if (lead_prior_.count(measured_.lead, share) && parts_.lead_physics) tell_leads();
 }
 
 template <TransformKind kind>

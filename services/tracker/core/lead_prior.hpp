@@ -58,12 +58,12 @@ class LeadPrior {
 
     /// An event of this lead that is the object's with probability `share`; true where what is held
     /// shall be told to the filter again.
-    bool count(int lead, double share) {
-        const auto polarity = static_cast<std::size_t>(lead / 2);
+    [[gnu::always_inline]] bool count(int lead, double share) {
+        const auto polarity = static_cast<std::size_t>(lead >> 1);
         double& subsequent = subsequent_share_[polarity];
         Mean& mean = mean_[polarity];
         mean.count(share);
-        subsequent += share * mean.per_event * (lead % 2 - subsequent);
+        subsequent += share * mean.per_event * ((lead & 1) - subsequent);
         if (++since_told_ < every_events) return false;
         since_told_ = 0;
         return true;

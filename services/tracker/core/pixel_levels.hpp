@@ -91,7 +91,7 @@ class PixelLevels {
             pixel.piece = static_cast<std::uint16_t>(piece);
         }
         pixel.t_us = static_cast<std::uint32_t>(event.t_us);
-        pixel.level = (pixel.level + ((event.polarity & 1U) != 0 ? 1U : levels - 1)) % levels;
+        pixel.level = (pixel.level + 2 * (event.polarity & 1U) + levels - 1) % levels;
         at_ = &pixel;
         const std::int16_t place = pixel.places[pixel.level];
         return {grain_px * (place + pixel.moved), place != unknown};
@@ -145,7 +145,7 @@ class PixelLevels {
 
     static std::int16_t fixed(double px) {
         const double grains = clamped(px / grain_px, -30'000, 30'000);
-        return static_cast<std::int16_t>(grains + (grains < 0 ? -0.5 : 0.5));
+        return static_cast<std::int16_t>(grains + std::copysign(0.5, grains));
     }
 
     struct Edge {
@@ -166,14 +166,16 @@ class PixelLevels {
     static_assert(sizeof(Pixel) == 32);
 
     // (Of a contour of more than 65,536 pieces some are taken for others, and do not fit.)
-    [[nodiscard]] bool is_same_edge(std::uint16_t piece, std::int32_t other) const {
-        if (piece == static_cast<std::uint16_t>(other)) return true;
+    [[nodiscard, gnu::always_inline]] bool is_same_edge(std::uint16_t piece,
+                                                        std::int32_t other) const {
+        // (All of it at once: nobody could foresee whether it is the same piece.)
         const Edge& a = edges_[piece];
         const Edge& b = edges_[static_cast<std::size_t>(other)];
         const float x = a.x - b.x;
         const float y = a.y - b.y;
-        return x * x + y * y < same_edge_px * same_edge_px &&
-               a.along_x * b.along_x + a.along_y * b.along_y > same_edge_cosine;
+        const bool is_near = x * x + y * y < same_edge_px * same_edge_px;
+        const bool is_along = a.along_x * b.along_x + a.along_y * b.along_y > same_edge_cosine;
+        return (piece == static_cast<std::uint16_t>(other)) | (is_near & is_along);
     }
 
     std::vector<Edge> edges_;

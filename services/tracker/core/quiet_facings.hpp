@@ -54,9 +54,12 @@ class QuietFacings {
             if (along.dot(Eigen::Vector2d(std::cos(middle_rad), std::sin(middle_rad))) < 0) {
                 along = -along;
             }
-            samples_.push_back({{(piece.ax + piece.bx) / 2, (piece.ay + piece.by) / 2},
-                                along * static_cast<double>(every),
-                                facing});
+            samples_.push_back({{(piece.ax + piece.bx) / 2, (piece.ay + piece.by) / 2}, facing});
+            along *= static_cast<double>(every);
+            along_x_px_.conservativeResize(along_x_px_.size() + 1);
+            along_y_px_.conservativeResize(along_y_px_.size() + 1);
+            along_x_px_.tail<1>() = along.x();
+            along_y_px_.tail<1>() = along.y();
         }
     }
 
@@ -124,9 +127,10 @@ class QuietFacings {
 
     struct Sample {
         Eigen::Vector2d middle_px;  // model
-        Eigen::Vector2d along_px;   // as long as what it stands for
         std::uint8_t facing;
     };
+    /// By sample.
+    using Numbers = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_samples, 1>;
     struct Row {
         Step along = Step::Zero();  // times the length
         double length_px = 0;
@@ -146,11 +150,18 @@ class QuietFacings {
     [[nodiscard]] Rows rows_of(const Filter& filter) const {
         const Pose& pose = filter.pose();
         Rows rows;
-        for (const Sample& sample : samples_) {
-            const Eigen::Vector2d along = pose.a * sample.along_px;
-            const double length_px = along.norm();
+        // Roots and quotients two at a time.
+        const Numbers along_x = pose.a(0, 0) * along_x_px_ + pose.a(0, 1) * along_y_px_;
+        const Numbers along_y = pose.a(1, 0) * along_x_px_ + pose.a(1, 1) * along_y_px_;
+        const Numbers lengths_px = (along_x * along_x + along_y * along_y).sqrt();
+        const Numbers n_x = along_y / lengths_px;
+        const Numbers n_y = -along_x / lengths_px;
+        for (std::size_t i = 0; i < samples_.size(); ++i) {
+            const Sample& sample = samples_[i];
+            const auto at = static_cast<Eigen::Index>(i);
+            const double length_px = lengths_px(at);
             if (!(length_px > 0)) continue;
-            const Eigen::Vector2d n(along.y() / length_px, -along.x() / length_px);
+            const Eigen::Vector2d n(n_x(at), n_y(at));
             const Step step =
                 Motion<kind>::along(n, pose.a * sample.middle_px, pose.a, sample.middle_px);
             Row& row = rows[sample.facing];
@@ -203,6 +214,8 @@ class QuietFacings {
 
     std::vector<std::uint8_t> facing_;  // of each piece
     std::vector<Sample> samples_;
+    Eigen::ArrayXd along_x_px_;  // by sample, model; as long as what it stands for
+    Eigen::ArrayXd along_y_px_;
     std::array<State, facings> states_{};
     double waited_s_ = 0;
 };

@@ -37,21 +37,23 @@ class Trail {
     /// Whether its pixel has fired so shortly before the first event of an edge that this is none
     /// from even ground. (Leads are OFF first, OFF subsequent, ON first, ON subsequent.)
     [[nodiscard]] static bool is_late(int lead, double way_px) {
-        return lead % 2 == 0 && way_px < edge_px;
+        return (lead & 1) == 0 && way_px < edge_px;
     }
 
     /// px by which it is ahead of what its lead says.
     [[nodiscard]] double ahead(int lead, double way_px) const {
         const Polarity& polarity = of(lead);
-        if (lead % 2 == 1) return of_way_ * (polarity.mean_way_px - std::min(way_px, most_way_px));
+        if ((lead & 1) != 0) {
+            return of_way_ * (polarity.mean_way_px - std::min(way_px, most_way_px));
+        }
         return (is_late(lead, way_px) ? polarity.late_px : 0) - polarity.mean_late_px;
     }
 
     /// An event that is the object's with probability `share` was ahead of all that by so much.
-    void learn(int lead, double way_px, double ahead_px, double share) {
-        Polarity& polarity = polarities_[static_cast<std::size_t>(lead / 2)];
+    [[gnu::always_inline]] void learn(int lead, double way_px, double ahead_px, double share) {
+        Polarity& polarity = polarities_[static_cast<std::size_t>(lead >> 1)];
         const double gain = memory * share;
-        if (lead % 2 == 1) {
+        if ((lead & 1) != 0) {
             polarity.mean_way_px += gain * (std::min(way_px, most_way_px) - polarity.mean_way_px);
             return;
         }
@@ -73,7 +75,7 @@ class Trail {
         double mean_late_px = 0;   // … and over all first ones
     };
     [[nodiscard]] const Polarity& of(int lead) const {
-        return polarities_[static_cast<std::size_t>(lead / 2)];
+        return polarities_[static_cast<std::size_t>(lead >> 1)];
     }
 
     std::array<Polarity, 2> polarities_{};  // OFF, ON
