@@ -74,6 +74,10 @@ class KalmanEstimator : public Estimator {
     /// Lookups and areas are as they were for every pose of an isometry.
     static constexpr bool keeps_its_size = kind == TransformKind::isometry;
 
+    /// Lookups are good for so much more than is asked of them.
+    static constexpr double lay_out_spare_px = 1;
+    static constexpr double most_pose_sigma_px = 1.2;
+
     /// Components of a twist of which a UsualWay tells: x, y and the angle, where that is one.
     static constexpr int usual_components = kind == TransformKind::full_affine ? 2 : 3;
 
