@@ -66,7 +66,8 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     offsets_.restart();
     quiet_.restart();
     levels_.restart();
-    noise_.restart(parts_.measurement_noise);
+    // (A model of a recording's events lies where they come from.)
+    noise_.restart(parts_.measurement_noise && !contour_.is_of_events());
     most_pose_sigma_px_ = most_pose_sigma_px;
     residual_px_ = 0.5;
     t_us_ = -1;

@@ -25,9 +25,9 @@ namespace pursuit::tracker {
 class MeasurementNoise {
  public:
     MeasurementNoise() { restart(); }
-    /// adapts: to what comes, by learn(); else it is the usual one.
-    void restart(bool adapts = true) {
-        gain_ = adapts ? first_gain : 1;
+    /// is_doubted: the model may be somewhat wrong; else it begins as usual.
+    void restart(bool is_doubted = true) {
+        gain_ = is_doubted ? first_gain : 1;
         weigh(0);
     }
 
