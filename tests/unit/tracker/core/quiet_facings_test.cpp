@@ -9,7 +9,7 @@ namespace pursuit::tracker {
 namespace {
 
 constexpr double step_s = 0.001;
-constexpr double speed_px_s = 20;
+constexpr double going_px_s = 20;
 constexpr double events_per_px = 40;  // of each side
 
 /// A square of 40 px whose sides make events as it goes, told to what listens.
@@ -24,7 +24,7 @@ class QuietSquare : public testing::Test {
             const bool is_upright = piece.ax == piece.bx;
             (is_upright ? upright_ : level_).push_back(static_cast<std::int32_t>(i));
         }
-        go(speed_px_s, speed_px_s);
+        go(going_px_s, going_px_s);
     }
 
     /// The filter thinks that it goes so fast, give or take sigma.
@@ -41,7 +41,7 @@ class QuietSquare : public testing::Test {
         }
     }
 
-    void learn_both_ways() { pass(1, speed_px_s, speed_px_s); }
+    void learn_both_ways() { pass(1, going_px_s, going_px_s); }
 
     Filter filter_;
     Contour contour_;
@@ -59,59 +59,59 @@ class QuietSquare : public testing::Test {
 
 TEST_F(QuietSquare, goes_on_as_long_as_its_sides_make_events) {
     learn_both_ways();
-    EXPECT_EQ(filter_.twist(), Step(speed_px_s, speed_px_s, 0));
+    EXPECT_EQ(filter_.twist(), Step(going_px_s, going_px_s, 0));
 }
 
 TEST_F(QuietSquare, stops_in_the_direction_in_which_no_events_come_and_goes_on_in_the_other) {
     learn_both_ways();
-    pass(0.02, speed_px_s, 0);
-    EXPECT_LT(filter_.twist().y(), 0.2 * speed_px_s);
-    EXPECT_NEAR(filter_.twist().x(), speed_px_s, 0.5);
+    pass(0.02, going_px_s, 0);
+    EXPECT_LT(filter_.twist().y(), 0.2 * going_px_s);
+    EXPECT_NEAR(filter_.twist().x(), going_px_s, 0.5);
 }
 
 TEST_F(QuietSquare, is_thought_to_have_turned_rather_than_stopped) {
     learn_both_ways();
-    pass(0.02, speed_px_s, 0);
+    pass(0.02, going_px_s, 0);
     EXPECT_LT(filter_.twist().y(), 0);
-    EXPECT_GT(filter_.twist().y(), -0.5 * speed_px_s);
+    EXPECT_GT(filter_.twist().y(), -0.5 * going_px_s);
 }
 
 TEST_F(QuietSquare, is_stopped_by_no_silence_that_chance_explains) {
     learn_both_ways();
-    pass(0.001, speed_px_s, 0);
-    EXPECT_EQ(filter_.twist().y(), speed_px_s);
+    pass(0.001, going_px_s, 0);
+    EXPECT_EQ(filter_.twist().y(), going_px_s);
 }
 
 TEST_F(QuietSquare, leaves_the_filter_as_unsure_as_it_was) {
     learn_both_ways();
     const double before = filter_.covariance()(4, 4);
-    pass(0.02, speed_px_s, 0);
+    pass(0.02, going_px_s, 0);
     EXPECT_GE(filter_.covariance()(4, 4), before);
 }
 
 TEST_F(QuietSquare, goes_on_where_it_surely_does_and_has_lost_its_contrast) {
     learn_both_ways();
-    go(speed_px_s, speed_px_s, 2);
-    pass(0.02, speed_px_s, 0);
-    EXPECT_EQ(filter_.twist().y(), speed_px_s);
+    go(going_px_s, going_px_s, 2);
+    pass(0.02, going_px_s, 0);
+    EXPECT_EQ(filter_.twist().y(), going_px_s);
 }
 
 TEST_F(QuietSquare, goes_on_where_a_part_of_it_is_hidden) {
     learn_both_ways();
-    pass(0.02, speed_px_s, 0, false);
-    EXPECT_EQ(filter_.twist().y(), speed_px_s);
+    pass(0.02, going_px_s, 0, false);
+    EXPECT_EQ(filter_.twist().y(), going_px_s);
 }
 
 TEST_F(QuietSquare, knows_nothing_of_a_side_that_never_made_events) {
-    pass(1, speed_px_s, 0);
-    EXPECT_EQ(filter_.twist().y(), speed_px_s);
+    pass(1, going_px_s, 0);
+    EXPECT_EQ(filter_.twist().y(), going_px_s);
 }
 
 TEST_F(QuietSquare, knows_nothing_after_a_restart) {
     learn_both_ways();
     quiet_.restart();
-    pass(0.02, speed_px_s, 0);
-    EXPECT_EQ(filter_.twist().y(), speed_px_s);
+    pass(0.02, going_px_s, 0);
+    EXPECT_EQ(filter_.twist().y(), going_px_s);
 }
 
 }  // namespace
