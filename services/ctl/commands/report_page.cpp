@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "services/common/output_file.hpp"
 #include "services/ctl/commands/offline_commands.hpp"
 #include "services/ctl/commands/report.hpp"
 #include "services/ctl/recording/recorded_run.hpp"
@@ -37,6 +38,9 @@ void print_summary(const Report& page) {
 }
 
 int write_report(const ReportOptions& options) {
+    if (auto ok = check_is_not_input(options.output, options.recording); !ok) {
+        return report(ok.error());
+    }
     const auto recorded = read_run(options.recording, options.slices,
                                    static_cast<std::int64_t>(options.slice_ms * 1000));
     if (!recorded) return report(recorded.error());

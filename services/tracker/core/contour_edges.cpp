@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <nanoflann.hpp>
-#include <tuple>
+#include <set>
+#include <utility>
 
 namespace pursuit::tracker {
 namespace {
@@ -51,29 +52,13 @@ Shape without_repeats(const Shape& shape) {
         }
         kept.points_px.push_back(points_px[i]);
     }
-    const auto ends = [](const Edge& edge) { return std::minmax(edge.from, edge.to); };
+    std::set<std::pair<std::uint16_t, std::uint16_t>> joined;
     for (const Edge& edge : shape.edges) {
         const Edge moved{static_cast<std::uint16_t>(place[edge.from]),
                          static_cast<std::uint16_t>(place[edge.to])};
-        if (moved.from != moved.to) kept.edges.push_back(moved);
+        if (moved.from == moved.to) continue;
+        if (joined.insert(std::minmax(moved.from, moved.to)).second) kept.edges.push_back(moved);
     }
-    // In the order they came in.
-    std::vector<std::tuple<std::uint16_t, std::uint16_t, std::size_t>> order;
-    for (std::size_t i = 0; i < kept.edges.size(); ++i) {
-        const auto [low, high] = ends(kept.edges[i]);
-        order.emplace_back(low, high, i);
-    }
-    std::sort(order.begin(), order.end());
-    std::vector<bool> is_repeat(kept.edges.size(), false);
-    for (std::size_t i = 1; i < order.size(); ++i) {
-        const auto& [low, high, index] = order[i];
-        is_repeat[index] = low == std::get<0>(order[i - 1]) && high == std::get<1>(order[i - 1]);
-    }
-    std::vector<Edge> once;
-    for (std::size_t i = 0; i < kept.edges.size(); ++i) {
-        if (!is_repeat[i]) once.push_back(kept.edges[i]);
-    }
-    kept.edges = std::move(once);
     return kept;
 }
 

@@ -79,7 +79,6 @@ void Track::begin() {
     look_for_blind_us_ = 0;
     acquired_us_ = doubted_us_ = never_us;
     trial_until_us_ = -1;
-    last_event_t_us_ = 0;
     visible_share_ = 1;
     vanishing_.restart();
     find_what_to_watch();
@@ -98,6 +97,7 @@ void Track::begin_stream() {
     // A start that no event has moved yet was given for the stream that begins.
     if (is_searching_ || is_fresh_) {
         begin();
+        last_event_t_us_ = 0;  // what it tried was in the other stream
         return;
     }
     vanishing_.restart();

@@ -23,9 +23,9 @@ struct Part {
     std::string left_out;
     TransformKind transform = TransformKind::isometry;
     double noise_per_ms = 20;
-    double wider = 1;  ///< What is seen is so much wider than the model, …
-    double bend = 0;   ///< … and bent, as a plane in perspective.
-    double most_px = 2;
+    double wider = 1;    ///< What is seen is so much wider than the model, …
+    double bend = 0;     ///< … and bent, as a plane in perspective.
+    double most_px = 2;  ///< (Among noise it is carried off: that is what the part is for.)
     std::int64_t until_us = 600'000;
 };
 

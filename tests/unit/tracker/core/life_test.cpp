@@ -267,6 +267,20 @@ TEST(Life, after_a_pose_is_set_is_that_of_an_object_registered_there) {
     expect_poses_of_a_fresh_tracker(again, stream);
 }
 
+TEST(Life, after_a_pose_is_set_knows_when_its_last_event_was_and_in_a_new_stream_of_none) {
+    Tracker tracker = that_follows_an_arrow(swinging(0));
+    Poses poses;
+    tracker.process(outline_events(arrow(), swinging, 0, 200'000, 60, 5, small_sensor, 3), poses);
+    const std::int64_t last_us = tracker.snapshots().at(0).t_us;
+    EXPECT_GT(last_us, 190'000);
+    ASSERT_TRUE(tracker.set_pose("arrow", {false, pose_of(50, 50, 0), {}}));
+    const Event far_off{210'000, 300, 230, 1};
+    tracker.process({&far_off, 1}, poses);
+    EXPECT_EQ(tracker.snapshots().at(0).t_us, last_us);
+    tracker.begin_stream(small_sensor, 2);
+    EXPECT_EQ(tracker.snapshots().at(0).t_us, 0);
+}
+
 TEST(Life, of_an_affine_shape_that_began_on_the_wrong_edges_goes_on_at_its_place) {
     // Drawn out, an H fits half of another one.
     const std::vector<Eigen::Vector2d> corners_px{{-20, -28}, {-8, -28}, {-8, -6}, {8, -6},
