@@ -139,7 +139,9 @@ struct CandidateGrid::Divider {
         const Cell cell = cell_of(kept);
         for (int y = row; y < std::min(row + size, grid.rows_); ++y) {
             for (int x = column; x < std::min(column + size, grid.columns_); ++x) {
-                grid.cells_[grid.place_of(x, y)] = cell;
+                const std::size_t at = grid.place_of(x, y);
+                grid.cells_[at] = cell;
+                grid.is_within_[at / 64] |= std::uint64_t{1} << (at % 64);
             }
         }
     }
@@ -195,6 +197,7 @@ void CandidateGrid::build(double reach_px, double anisotropy) {
     columns_ = static_cast<int>(width_px / cell_px) + 1;
     rows_ = static_cast<int>(height_px / cell_px) + 1;
     cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), {});
+    is_within_.assign(cells_.size() / 64 + 1, 0);
     others_.clear();
 
     std::vector<std::uint16_t> all(pieces_.size());
