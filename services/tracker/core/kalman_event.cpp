@@ -189,6 +189,8 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     if (place.piece < 0) return nullptr;
     const double past_end2 = place.squared_px - place.r_px * place.r_px;
     if (past_end2 > Clutter::overshoot_px * Clutter::overshoot_px) return nullptr;
+    // (While this event's place is waited for. It brings a twentieth.)
+    filter_.settle();
 
     const Segment& segment = contour_.pieces().segment(place.piece);
     const int polarity = event.polarity & 1;

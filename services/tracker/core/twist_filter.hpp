@@ -15,6 +15,9 @@ namespace pursuit::tracker {
 ///
 /// The covariance is symmetric: of each block outside the diagonal of blocks (pose, twist, leads)
 /// only the lower one is kept up, and of the twist's own block the lower half.
+///
+/// What a correction takes from the covariance waits until the covariance is asked for: the next
+/// event can be looked up without it.
 template <TransformKind kind>
 class TwistFilter {
  public:
@@ -28,6 +31,7 @@ class TwistFilter {
 
     void restart(const Pose& pose, const Step& twist, const Step& pose_sigma,
                  const Step& twist_sigma) {
+        settle();
         pose_ = pose;
         twist_ = twist;
         covariance_.template topLeftCorner<2 * dof, size>().setZero();
@@ -40,6 +44,7 @@ class TwistFilter {
     using LeadCovariance = Eigen::Matrix<double, leads, leads>;
 
     void restart_leads(const Leads& mean_px, const LeadCovariance& covariance_px2) {
+        settle();
         lead_px_ = mean_px;
         covariance_.template bottomRows<leads>().setZero();
         covariance_.template rightCols<leads>().setZero();
@@ -51,6 +56,7 @@ class TwistFilter {
     /// … and is known by that much less; noise: the spectral density of the twist's random walk, a
     /// component each.
     void spread(double dt_s, const Step& noise) {
+        settle();
         auto pp = covariance_.template topLeftCorner<dof, dof>();
         auto vp = covariance_.template block<dof, dof>(dof, 0);
         auto bp = covariance_.template block<leads, dof>(2 * dof, 0);
@@ -78,7 +84,8 @@ class TwistFilter {
         State p_h;     ///< P·Hᵀ
         double h_p_h;  ///< H·P·Hᵀ
     };
-    [[nodiscard, gnu::always_inline]] Row row(const Step& j, int lead, double h) const {
+    [[nodiscard, gnu::always_inline]] Row row(const Step& j, int lead, double h) {
+        settle();
         Row row;
         row.p_h.noalias() = covariance_.template leftCols<dof>() * j;
         const int at = 2 * dof + lead;
@@ -90,7 +97,8 @@ class TwistFilter {
     }
 
     /// The same of a measurement j·twist.
-    [[nodiscard]] Row speed_row(const Step& j) const {
+    [[nodiscard]] Row speed_row(const Step& j) {
+        settle();
         Row row;
         row.p_h.template head<dof>() = covariance_.template block<dof, dof>(dof, 0).transpose() * j;
         row.p_h.template segment<dof>(dof) = twist_covariance() * j;
@@ -106,16 +114,26 @@ class TwistFilter {
     /// without that, events of noise alone would make it sure of itself.
     [[gnu::always_inline]] void correct(const Row& row, double residual_px, double per_variance,
                                         double reduced = 1) {
+        settle();
         const double step = per_variance * residual_px;
         M::apply(row.p_h.template head<dof>() * step, pose_);
         twist_ += row.p_h.template segment<dof>(dof) * step;
         lead_px_ += row.p_h.template tail<leads>() * step;
-        reduce(row.p_h * (per_variance * reduced), row.p_h,
-               std::make_integer_sequence<int, size>());
+        taken_p_h_ = row.p_h;
+        taken_ = per_variance * reduced;
+    }
+
+    /// P ← P − K·(P·Hᵀ)ᵀ of the last correction, where that has not been done: for who knows a
+    /// time at which it costs least. What needs the covariance asks for it by itself.
+    [[gnu::always_inline]] void settle() {
+        if (taken_ == 0) return;
+        reduce(std::make_integer_sequence<int, size>());
+        taken_ = 0;
     }
 
     /// Corrects by what is known of the leads besides the events: weights · leads = value ± sigma.
     void tell_leads(const Leads& weights, double value_px, double sigma_px) {
+        settle();
         State p_h;
         p_h.template head<2 * dof>() =
             covariance_.template bottomLeftCorner<leads, 2 * dof>().transpose() * weights;
@@ -127,6 +145,7 @@ class TwistFilter {
 
     /// Shrinks row and column i where its variance exceeds the bound.
     void limit_variance(int i, double bound) {
+        settle();
         const double variance = covariance_(i, i);
         if (!(variance > bound)) return;
         const double factor = std::sqrt(bound / variance);
@@ -139,25 +158,33 @@ class TwistFilter {
     void slow_down(double factor) { twist_ *= factor; }
     /// Of what is off from this twist, so much is left.
     void draw_twist(int i, double to, double kept) {
+        settle();
         twist_(i) = to + (twist_(i) - to) * kept;
         covariance_.row(dof + i) *= kept;
         covariance_.col(dof + i) *= kept;
     }
     void add_position_variance(const Eigen::Matrix2d& variance_px2) {
+        settle();
         covariance_.template topLeftCorner<2, 2>() += variance_px2;
     }
-    void add_variance(int i, double variance) { covariance_(i, i) += variance; }
+    void add_variance(int i, double variance) {
+        settle();
+        covariance_(i, i) += variance;
+    }
 
     [[nodiscard]] const Pose& pose() const { return pose_; }
     [[nodiscard]] const Step& twist() const { return twist_; }
     /// Of the velocity of T, both ways, and of a place so far from it for its turning; px²/s².
-    [[nodiscard]] double speed_variance(double radius2_px2) const {
+    [[nodiscard]] double speed_variance(double radius2_px2) {
+        settle();
         return covariance_(dof, dof) + covariance_(dof + 1, dof + 1) +
                radius2_px2 * covariance_(dof + 2, dof + 2);
     }
     [[nodiscard]] const Leads& lead_px() const { return lead_px_; }
     [[nodiscard]] Covariance covariance() const {
-        return covariance_.template selfadjointView<Eigen::Lower>();
+        TwistFilter settled = *this;
+        settled.settle();
+        return settled.covariance_.template selfadjointView<Eigen::Lower>();
     }
 
  private:
@@ -173,20 +200,25 @@ class TwistFilter {
         return column < dof ? 0 : column < 2 * dof ? column & ~1 : 2 * dof;
     }
     template <int column>
-    void reduce_column(const State& gain, const State& p_h) {
+    void reduce_column(const State& gain) {
         constexpr int rows = size - first_row(column);
-        covariance_.col(column).template tail<rows>() -= gain.template tail<rows>() * p_h(column);
+        covariance_.col(column).template tail<rows>() -=
+            gain.template tail<rows>() * taken_p_h_(column);
     }
-    // P ← P − K·(P·Hᵀ)ᵀ
     template <int... columns>
-    void reduce(const State& gain, const State& p_h, std::integer_sequence<int, columns...>) {
-        (reduce_column<columns>(gain, p_h), ...);
+    [[gnu::noinline]] void reduce(std::integer_sequence<int, columns...>) {
+        const State gain = taken_p_h_ * taken_;
+        (reduce_column<columns>(gain), ...);
     }
 
     Pose pose_;
     Step twist_ = Step::Zero();
     Leads lead_px_ = Leads::Zero();
     Covariance covariance_ = Covariance::Identity();
+    // Of the correction that the covariance does not know of yet: P·Hᵀ, and how much of it times
+    // itself is to be taken.
+    State taken_p_h_ = State::Zero();
+    double taken_ = 0;
 };
 
 }  // namespace pursuit::tracker
