@@ -54,12 +54,9 @@ class QuietFacings {
             if (along.dot(Eigen::Vector2d(std::cos(middle_rad), std::sin(middle_rad))) < 0) {
                 along = -along;
             }
-            samples_.push_back({{(piece.ax + piece.bx) / 2, (piece.ay + piece.by) / 2}, facing});
             along *= static_cast<double>(every);
-            along_x_px_.conservativeResize(along_x_px_.size() + 1);
-            along_y_px_.conservativeResize(along_y_px_.size() + 1);
-            along_x_px_.tail<1>() = along.x();
-            along_y_px_.tail<1>() = along.y();
+            const Eigen::Vector2d middle((piece.ax + piece.bx) / 2, (piece.ay + piece.by) / 2);
+            samples_.push_back({middle, along, along.norm(), facing});
         }
     }
 
@@ -125,12 +122,14 @@ class QuietFacings {
     static constexpr double memory_px = 8;
     static constexpr double least_way_px = 4;  // before anything is told
 
+    static constexpr bool keeps_its_size = kind == TransformKind::isometry;
+
     struct Sample {
         Eigen::Vector2d middle_px;  // model
+        Eigen::Vector2d along_px;   // model; as long as what it stands for
+        double length_px;
         std::uint8_t facing;
     };
-    /// By sample.
-    using Numbers = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_samples, 1>;
     struct Row {
         Step along = Step::Zero();  // times the length
         double length_px = 0;
@@ -148,26 +147,18 @@ class QuietFacings {
     };
 
     [[nodiscard]] Rows rows_of(const Filter& filter) const {
-        const Pose& pose = filter.pose();
+        const Eigen::Matrix2d& a = filter.pose().a;
         Rows rows;
-        // Roots and quotients two at a time.
-        const Numbers along_x = pose.a(0, 0) * along_x_px_ + pose.a(0, 1) * along_y_px_;
-        const Numbers along_y = pose.a(1, 0) * along_x_px_ + pose.a(1, 1) * along_y_px_;
-        const Numbers lengths_px = (along_x * along_x + along_y * along_y).sqrt();
-        const Numbers n_x = along_y / lengths_px;
-        const Numbers n_y = -along_x / lengths_px;
-        for (std::size_t i = 0; i < samples_.size(); ++i) {
-            const Sample& sample = samples_[i];
-            const auto at = static_cast<Eigen::Index>(i);
-            const double length_px = lengths_px(at);
-            if (!(length_px > 0)) continue;
-            const Eigen::Vector2d n(n_x(at), n_y(at));
+        for (const Sample& sample : samples_) {
+            const Eigen::Vector2d along_px = a * sample.along_px;
+            // Its normal, times its length: nobody needs the one without the other.
+            const Eigen::Vector2d across_px(along_px.y(), -along_px.x());
             const Step step =
-                Motion<kind>::along(n, pose.a * sample.middle_px, pose.a, sample.middle_px);
+                Motion<kind>::along(across_px, a * sample.middle_px, a, sample.middle_px);
             Row& row = rows[sample.facing];
-            row.along += length_px * step;
-            row.length_px += length_px;
-            row.sweep_px2_s += length_px * std::abs(step.dot(filter.twist()));
+            row.along += step;
+            row.length_px += keeps_its_size ? sample.length_px : along_px.norm();
+            row.sweep_px2_s += std::abs(step.dot(filter.twist()));
         }
         return rows;
     }
@@ -214,8 +205,6 @@ class QuietFacings {
 
     std::vector<std::uint8_t> facing_;  // of each piece
     std::vector<Sample> samples_;
-    Eigen::ArrayXd along_x_px_;  // by sample, model; as long as what it stands for
-    Eigen::ArrayXd along_y_px_;
     std::array<State, facings> states_{};
     double waited_s_ = 0;
 };
