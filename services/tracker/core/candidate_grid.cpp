@@ -196,6 +196,8 @@ void CandidateGrid::build(double reach_px, double anisotropy) {
     cells_per_px_ = 1 / cell_px;
     columns_ = static_cast<int>(width_px / cell_px) + 1;
     rows_ = static_cast<int>(height_px / cell_px) + 1;
+    end_column_ = columns_;
+    end_row_ = rows_;
     cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), {});
     is_within_.assign(cells_.size() / 64 + 1, 0);
     others_.clear();

@@ -119,7 +119,7 @@ class CandidateGrid {
                                                       const Metric& metric) const {
         const double column = (x - left_px_) * cells_per_px_;
         const double row = (y - top_px_) * cells_per_px_;
-        if (!(column >= 0 && row >= 0 && column < columns_ && row < rows_)) return {};
+        if (!(column >= 0 && row >= 0 && column < end_column_ && row < end_row_)) return {};
         const Cell cell = cells_[place_of(static_cast<int>(column), static_cast<int>(row))];
         if (cell.others == 0) return {};
         const auto see_point = [&](std::uint16_t i) __attribute__((always_inline)) {
@@ -136,7 +136,7 @@ class CandidateGrid {
     [[nodiscard, gnu::always_inline]] bool is_beyond(double x, double y) const {
         const double column = (x - left_px_) * cells_per_px_;
         const double row = (y - top_px_) * cells_per_px_;
-        if (!(column >= 0 && row >= 0 && column < columns_ && row < rows_)) return true;
+        if (!(column >= 0 && row >= 0 && column < end_column_ && row < end_row_)) return true;
         const std::size_t at = place_of(static_cast<int>(column), static_cast<int>(row));
         __builtin_prefetch(&cells_[at]);
         return (is_within_[at / 64] >> (at % 64) & 1U) == 0;
@@ -242,6 +242,8 @@ class CandidateGrid {
     double cells_per_px_ = 1;
     int columns_ = 0;
     int rows_ = 0;
+    double end_column_ = 0;  // the same two, as lookups want them
+    double end_row_ = 0;
     std::vector<Cell> cells_;
     /// A bit for each cell: whether there is any piece in it. (Of a large shape the cells take half
     /// a megabyte, and nobody could foresee what most events wait for; these stay in the cache.)

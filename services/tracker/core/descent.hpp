@@ -20,12 +20,11 @@ struct DescentGains {
 
 /// The step of an isometry, in which lengths and angles are the same in the model's frame: nothing
 /// has to be turned before it is known where the event pulls, and the next event waits for less.
-///   x        the event in the model's frame
+///   off      from the nearest model point to the event, in the model's frame
 [[gnu::always_inline]] inline void descend_rigidly(Pose& pose, const DescentGains& gains,
-                                                   const Eigen::Vector2d& x,
+                                                   const Eigen::Vector2d& off,
                                                    const Eigen::Vector2d& m_model, double weight) {
-    // (3.2) the cost is ‖x − m‖².
-    const Eigen::Vector2d off = x - m_model;
+    // (3.2) the cost is ‖off‖².
     // (3.7) along the gradient with respect to the angle; m × x is m × (x − m).
     const double turn =
         weight * 2 * gains.angle_rad_px2 * (m_model.x() * off.y() - m_model.y() * off.x());
@@ -44,7 +43,7 @@ template <TransformKind kind>
                                            const Eigen::Vector2d& q, const Eigen::Vector2d& m_model,
                                            double weight) {
     if constexpr (kind == TransformKind::isometry) {
-        descend_rigidly(pose, gains, pose.a.transpose() * q, m_model, weight);
+        descend_rigidly(pose, gains, pose.a.transpose() * q - m_model, m_model, weight);
     } else {
         // (3.2) the model point in the image, about T; the cost is ‖q − m‖².
         const Eigen::Vector2d m = pose.a * m_model;

@@ -17,6 +17,7 @@ template <TransformKind kind>
 GradientEstimator<kind>::GradientEstimator(const Contour& contour,
                                            const ObjectParameters& parameters, Pull pull)
     : pull_(pull), contour_(contour), parameters_(parameters) {
+    near_.clutter = usual_clutter;
     set_parameters(parameters);
     restart({}, {});
 }
@@ -61,15 +62,17 @@ void GradientEstimator<kind>::lay_out() {
 
 template <TransformKind kind>
 const Approach* GradientEstimator<kind>::approach(const Event& event, const PixelPast&) {
-    q_ << event.x - pose_.t_px.x(), event.y - pose_.t_px.y();
-    if (q_.squaredNorm() > reach2_px2_) return nullptr;
+    const double qx = event.x - pose_.t_px.x();
+    const double qy = event.y - pose_.t_px.y();
     t_us_ = event.t_us;
     const Eigen::Matrix2d& a = pose_.a;
     if constexpr (keeps_its_size) {
-        // The inverse of A is its transpose.
-        return approach_at(a(0, 0) * q_.x() + a(1, 0) * q_.y(), a(0, 0) * q_.y() - a(1, 0) * q_.x(),
-                           ModelMetric());
+        // The inverse of A is its transpose. (What is farther than the gate from all of the shape
+        // is in no cell of the grid.)
+        return approach_at(a(0, 0) * qx + a(1, 0) * qy, a(0, 0) * qy - a(1, 0) * qx, ModelMetric());
     } else {
+        q_ << qx, qy;
+        if (q_.squaredNorm() > reach2_px2_) return nullptr;
         lay_out();
         const double per_area = 1 / (a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
         return approach_at((a(1, 1) * q_.x() - a(0, 1) * q_.y()) * per_area,
@@ -85,9 +88,10 @@ template <class Metric>
     const CandidateGrid& grid = wants_point ? contour_.points() : contour_.pieces();
     const auto nearest = grid.nearest(x, y, metric);
     if (nearest.piece < 0 || !(nearest.squared_px <= gate2_px2_)) return nullptr;
-    x_ << x, y;
     m_ = grid.place(nearest);
-    near_ = {nearest.squared_px, usual_clutter, nearest.squared_px, nearest.piece};
+    if constexpr (keeps_its_size) off_ << x - m_.x(), y - m_.y();
+    near_.distance2_px2 = near_.contour2_px2 = nearest.squared_px;
+    near_.piece = nearest.piece;
     if (wants_point) look_at_contour(x, y, metric, nearest);
     return &near_;
 }
@@ -119,7 +123,7 @@ template <TransformKind kind>
 bool GradientEstimator<kind>::take(double weight) {
     if (!(weight > 0)) return false;
     if constexpr (keeps_its_size) {
-        descend_rigidly(pose_, gains_, x_, m_, weight);
+        descend_rigidly(pose_, gains_, off_, m_, weight);
     } else {
         descend<kind>(pose_, gains_, q_, m_, weight);
         measure_extent();
@@ -132,10 +136,15 @@ bool GradientEstimator<kind>::take(double weight) {
 template <TransformKind kind>
 void GradientEstimator<kind>::sample_slope() {
     const double theta = theta_rad(pose_.a);
-    turned_rad_ += std::remainder(theta - last_theta_rad_, 2 * std::numbers::pi);
+    double more_rad = theta - last_theta_rad_;
+    // (Within half a turn it is its own remainder.)
+    if (!(std::abs(more_rad) <= std::numbers::pi)) {
+        more_rad = std::remainder(more_rad, 2 * std::numbers::pi);
+    }
+    turned_rad_ += more_rad;
     last_theta_rad_ = theta;
-    Slope<5>::Values values;
-    values << pose_.t_px.x(), pose_.t_px.y(), turned_rad_, 0, 0;
+    typename PoseSlope::Values values;
+    values.template head<3>() << pose_.t_px.x(), pose_.t_px.y(), turned_rad_;
     if constexpr (!keeps_its_size) {
         values(3) = std::log(scale_x(pose_.a));
         values(4) = std::log(scale_y(pose_.a));
@@ -146,7 +155,11 @@ void GradientEstimator<kind>::sample_slope() {
 template <TransformKind kind>
 Velocity GradientEstimator<kind>::velocity() const {
     const auto slope = slope_.per_s();
-    return {slope(0), slope(1), slope(2), slope(3), slope(4)};
+    if constexpr (keeps_its_size) {
+        return {slope(0), slope(1), slope(2), 0, 0};
+    } else {
+        return {slope(0), slope(1), slope(2), slope(3), slope(4)};
+    }
 }
 
 template <TransformKind kind>

@@ -55,14 +55,16 @@ class GradientEstimator : public Estimator {
     double plainly2_px2_ = 0;  // nearer than this to a point, squared, is near the contour as well
     double reach2_px2_ = 0;    // of the extent and the gate, squared
     DescentGains gains_;
-    Slope<5> slope_{0.02};  // of x, y, θ (unwrapped), log sx, log sy
+    /// Of x, y, θ (unwrapped), and where the size may change of log sx, log sy.
+    using PoseSlope = Slope<keeps_its_size ? 3 : 5>;
+    PoseSlope slope_{0.02};
     double turned_rad_ = 0;
     double last_theta_rad_ = 0;
     double residual_px_ = 0.5;
 
     // What approach() found.
-    Eigen::Vector2d q_ = Eigen::Vector2d::Zero();  // the event about T, image
-    Eigen::Vector2d x_ = Eigen::Vector2d::Zero();  // the event in the model's frame
+    Eigen::Vector2d q_ = Eigen::Vector2d::Zero();  // the event about T, image; where A may stretch
+    Eigen::Vector2d off_ = Eigen::Vector2d::Zero();  // from m to the event, model; where it may not
     Eigen::Vector2d m_ = Eigen::Vector2d::Zero();
     Approach near_;
     std::int64_t t_us_ = 0;

@@ -32,7 +32,7 @@ class Grip {
     /// interest.
     void forgive() {
         against_us_ = 0;
-        sharp_ = astray_ = 0;
+        sharp_ = counted_ = 0;
         looked_us_ = 0;
     }
     /// Another contour is held the same way.
@@ -40,8 +40,8 @@ class Grip {
 
     /// An event of those within the gate, on the contour (within a quarter of the gate) or not.
     void count(bool is_sharp) {
+        ++counted_;
         sharp_ += is_sharp ? 1 : 0;
-        astray_ += is_sharp ? 0 : 1;
     }
     /// One that was on this piece of the contour, and moved the pose.
     void count_place(std::int32_t piece) { cover_.count(piece); }
@@ -49,17 +49,17 @@ class Grip {
     /// So many are weighed together.
     static constexpr int together = 24;
     /// Whether as many were counted.
-    [[nodiscard]] bool is_due() const { return sharp_ + astray_ >= together; }
+    [[nodiscard]] bool is_due() const { return counted_ >= together; }
     /// Whether any were.
-    [[nodiscard]] bool is_counting() const { return sharp_ + astray_ > 0; }
+    [[nodiscard]] bool is_counting() const { return counted_ > 0; }
     [[nodiscard]] int sharp() const { return sharp_; }
-    [[nodiscard]] int astray() const { return astray_; }
+    [[nodiscard]] int astray() const { return counted_ - sharp_; }
 
     /// Weighs what was counted, the last at this time; is_noise: noise alone comes; is_seen: it
     /// shows here among noise that hides most of its events.
     void weigh(std::int64_t t_us, bool is_noise, bool is_seen, double let_go_sharpness) {
-        health_.count(sharp_, sharp_ + astray_, t_us, is_noise);
-        sharp_ = astray_ = 0;
+        health_.count(sharp_, counted_, t_us, is_noise);
+        sharp_ = counted_ = 0;
         const std::int64_t dt_us = std::clamp<std::int64_t>(t_us - weighed_us_, 0, longest_step_us);
         weighed_us_ = t_us;
         const bool is_against = !is_noise && !is_seen && health_.is_settled() &&
@@ -100,8 +100,8 @@ class Grip {
 
     Health health_;
     Cover cover_;
-    int sharp_ = 0;  // counted and not yet weighed
-    int astray_ = 0;
+    int counted_ = 0;  // and not yet weighed
+    int sharp_ = 0;    // of these
     std::int64_t against_us_ = 0;
     std::int64_t weighed_us_ = 0;
     std::int64_t looked_us_ = 0;

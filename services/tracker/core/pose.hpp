@@ -53,6 +53,8 @@ constexpr double max_scale = 100;
 
 /// Refuses a pose out of bounds, and one that lies more than 2 % from the nearest pose of `kind`.
 Result<void> check(const Pose& pose, TransformKind kind);
+/// Whether it does not: for what asks all the time, and of nobody else's pose.
+bool is_sound(const Pose& pose, TransformKind kind);
 
 /// Refuses speeds that are not finite, beyond ±1e7 px/s or ±1e5 rad/s.
 Result<void> check(const Velocity& velocity);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace pursuit::tracker {
 
@@ -19,7 +20,7 @@ class Slope {
     void restart() { *this = Slope(memory_s_); }
 
     /// Whether a sample at this time is wanted: 1/50 of the memory after the last.
-    [[nodiscard]] bool is_due(std::int64_t t_us) const { return t_us >= due_us_ || !(weight_ > 0); }
+    [[nodiscard]] bool is_due(std::int64_t t_us) const { return t_us >= due_us_; }
 
     void add(std::int64_t t_us, const Values& values) {
         if (weight_ > 0) fade(static_cast<double>(t_us - t_us_) * 1e-6);
@@ -49,7 +50,7 @@ class Slope {
 
     double memory_s_;
     std::int64_t t_us_ = 0;
-    std::int64_t due_us_ = 0;
+    std::int64_t due_us_ = std::numeric_limits<std::int64_t>::min();
     double weight_ = 0;
     double time_ = 0;
     double time2_ = 0;

@@ -210,7 +210,7 @@ void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
         if (is_adrift_) grip_lost_us_ = t_us;
     }
     if (is_covered_) return;
-    if (!is_acquiring_ && !check(estimator_->pose(), transform_)) run_off(t_us);
+    if (!is_acquiring_ && !is_sound(estimator_->pose(), transform_)) run_off(t_us);
     if (!is_acquiring_ && grip_.is_counting()) weigh(silence_.heard_us());
     if (!is_acquiring_) {
         if (t_us >= look_for_blind_us_) {

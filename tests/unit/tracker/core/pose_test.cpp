@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace pursuit::tracker {
 namespace {
@@ -50,6 +51,34 @@ TEST(Pose, is_refused_where_the_transform_cannot_reach_it) {
     EXPECT_FALSE(check(pose_of(0, 0, 1, 1.3, 1.3), TransformKind::isometry));
     EXPECT_FALSE(check(pose_of(0, 0, 1, 1.3, 1.0), TransformKind::similarity));
     EXPECT_TRUE(check(pose_of(0, 0, 1, 1.3, 1.0), TransformKind::paper_affine));
+}
+
+TEST(Pose, is_sound_as_far_as_it_lies_within_2_percent_of_its_constrained_pose) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> angle(-3, 3);
+    std::uniform_real_distribution<double> scale(0.9, 1.1);
+    std::uniform_real_distribution<double> off(-0.03, 0.03);
+    for (const TransformKind kind : {TransformKind::isometry, TransformKind::similarity,
+                                     TransformKind::paper_affine, TransformKind::full_affine}) {
+        int sound = 0;
+        for (int i = 0; i < 1000; ++i) {
+            const double s = scale(random);
+            const bool is_unequal = kind == TransformKind::paper_affine;
+            Pose pose = pose_of(100, 50, angle(random), s, is_unequal ? scale(random) : s);
+            if (kind == TransformKind::isometry) pose.a /= s;
+            pose.a += (Eigen::Matrix2d() << off(random), off(random), off(random), off(random))
+                          .finished();
+            const double strays = (constrained(pose, kind).a - pose.a).norm() / pose.a.norm();
+            if (std::abs(strays - 0.02) < 1e-9) continue;
+            EXPECT_EQ(is_sound(pose, kind), strays < 0.02);
+            EXPECT_EQ(check(pose, kind).has_value(), strays < 0.02);
+            sound += strays < 0.02 ? 1 : 0;
+        }
+        EXPECT_GT(sound, 100);
+        if (kind != TransformKind::full_affine) {
+            EXPECT_LT(sound, 1000);
+        }
+    }
 }
 
 }  // namespace
