@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -43,33 +45,57 @@ class LastEvents {
     void for_each_in(const Box& box, std::int64_t since_us, const Look& look) {
         lay_out();
         tell_those_in(box);
-        for (std::size_t i = first_since(since_us); i != next_;) {
-            const std::size_t at = i % most;
-            if (at % together != 0 || next_ - i < together) {
-                if (is_in_[at] != 0) look(ring_[at]);
-                ++i;
-                continue;
-            }
-            for (std::uint64_t bits = those_in(at); bits != 0; bits &= bits - 1) {
-                look(ring_[at + static_cast<std::size_t>(std::countr_zero(bits)) / 8]);
-            }
-            i += together;
-        }
+        // The ring from its oldest wanted place to its end, and then from its begin.
+        const std::size_t first = first_since(since_us);
+        const std::size_t from = first % most;
+        const std::size_t to = from + (next_ - first);
+        look_at(from, std::min(to, most), look);
+        if (to > most) look_at(0, to - most, look);
     }
 
  private:
     static constexpr std::size_t together = sizeof(std::uint64_t);
+    static constexpr std::size_t listed = 256;
+    /// Events that lie together in the ring, and a bit in the byte of each that is in the box.
+    struct Some {
+        std::uint64_t bits;
+        std::size_t at;
+    };
 
     /// The first event that came then or later, counted as next_.
     [[nodiscard]] std::size_t first_since(std::int64_t since_us) const;
+    /// Those in the box, at these places of the ring.
+    template <class Look>
+    void look_at(std::size_t at, std::size_t end, const Look& look) const {
+        // (For all that the compiler knows, look() changes where the vectors are.)
+        const std::uint8_t* const is_in = is_in_.data();
+        const Event* const ring = ring_.data();
+        const auto look_at_one = [&] {
+            if (is_in[at] != 0) look(ring[at]);
+            ++at;
+        };
+        while (at < end && at % together != 0) look_at_one();
+        // Of most that lie together there is none in it: those where there is are listed first,
+        // some at a time, by no branch that nobody could foresee.
+        while (at + together <= end) {
+            std::array<Some, listed> list;
+            std::size_t count = 0;
+            const std::size_t last = std::min(end - together, at + (listed - 1) * together);
+            for (; at <= last; at += together) {
+                std::memcpy(&list[count].bits, is_in + at, together);
+                list[count].at = at;
+                count += list[count].bits != 0;
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                for (std::uint64_t bits = list[i].bits; bits != 0; bits &= bits - 1) {
+                    look(ring[list[i].at + static_cast<std::size_t>(std::countr_zero(bits)) / 8]);
+                }
+            }
+        }
+        while (at < end) look_at_one();
+    }
     void lay_out();
     void tell_those_in(const Box& box);
-    // A bit in the byte of each that is.
-    [[nodiscard]] std::uint64_t those_in(std::size_t at) const {
-        std::uint64_t bits = 0;
-        std::memcpy(&bits, &is_in_[at], together);
-        return bits;
-    }
 
     std::size_t next_ = 0;  // events seen; the last is before it in the ring
     std::vector<Event> ring_ = std::vector<Event>(most);

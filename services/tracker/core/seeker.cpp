@@ -270,21 +270,21 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
     // Forwards, as they came: supported by a neighbour that fired shortly before.
     const std::int64_t since_us = std::max(t_us - look_.window_us, range.since_us);
     const auto neighbour_us = static_cast<std::int32_t>(look_.neighbour_us);
-    last_.for_each_in(box, since_us, [&](const Event& event) {
+    std::int32_t* const fired_us = fired_us_.data();
+    last_.for_each_in(box, since_us, [&, fired_us](const Event& event) {
         const std::size_t at = static_cast<std::size_t>(event.y - box.top + 1) * columns +
                                static_cast<std::size_t>(event.x - box.left + 1);
         const auto now_us = static_cast<std::int32_t>(event.t_us - since_us);
-        const auto fired_since = [&](std::size_t pixel) {
-            return now_us - fired_us_[pixel] < neighbour_us;
-        };
+        const std::int32_t after_us = now_us - neighbour_us;
+        const auto fired_since = [&](std::size_t pixel) { return fired_us[pixel] > after_us; };
         int neighbours = fired_since(at - 1) + fired_since(at + 1);
         for (const std::size_t row : {at - columns, at + columns}) {
             neighbours += fired_since(row - 1) + fired_since(row) + fired_since(row + 1);
         }
-        if (!is_check_ && fired_us_[at] == never_us) {
+        if (!is_check_ && fired_us[at] == never_us) {
             chance_.add(event.x - box.left, event.y - box.top);
         }
-        fired_us_[at] = now_us;
+        fired_us[at] = now_us;
         looked_at_.push_back(at);
         first_us = std::min(first_us, event.t_us);
         if (neighbours == 0 || !is_in_reach(event) || is_of_cover(event)) return;
