@@ -79,7 +79,7 @@ class Health {
         const double above_chance =
             (let_go_sharpness - nothing_fits) * std::sqrt(window_events / window_);
         return sharpness_ < std::max(nothing_fits + above_chance, much_less * usual_sharpness_) ||
-               cover < least_cover() || (sharpness_ < doubtful && cover < doubtful_cover);
+               cover < bad_cover || (sharpness_ < doubtful && cover < doubtful_cover);
     }
 
     /// Between the two nothing changes: a track is not given up and taken up by turns.
@@ -97,7 +97,6 @@ class Health {
     static constexpr double good = 0.5;
     static constexpr double good_cover = 0.65;
     static constexpr double bad_cover = 0.5;
-    static constexpr double part_cover = 0.35;
 
  private:
     explicit Health(double sharpness) : sharpness_(sharpness) {}
@@ -110,18 +109,11 @@ class Health {
     static constexpr double much_less = 0.55;
     // Half way to where it is let go: with another shape's side on one of its own half of it fits.
     static constexpr double nearly_usual = 0.75;
-    static constexpr double as_always = 0.85;
     static constexpr double doubtful = 0.42;
     static constexpr double doubtful_cover = 0.75;
     static constexpr double memory_s = 0.05;
     static constexpr double own_memory_s = 0.5;
     static const inline Fade fade_{memory_s};
-
-    // How much of the contour makes events, or they come from a part alone. Where the ground is as
-    // dark as the object a part makes none: of what fits as nearly always less need show.
-    [[nodiscard]] double least_cover() const {
-        return relative_sharpness() > as_always ? part_cover : bad_cover;
-    }
 
     double sharpness_ = begin;
     double usual_sharpness_ = begin;

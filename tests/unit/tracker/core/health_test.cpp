@@ -43,22 +43,5 @@ TEST(Health, says_the_same_of_events_counted_together_as_one_by_one) {
     EXPECT_NEAR(together.usual_rate_hz() / alone.usual_rate_hz(), 1, 0.02);
 }
 
-TEST(Health, takes_less_of_the_contour_for_the_object_while_what_comes_fits_as_always) {
-    const double below = ObjectParameters().let_go_sharpness;
-    Health health;
-    std::int64_t t_us = 0;
-    const auto come = [&](int sharp_of_ten, int tens) {
-        for (int i = 0; i < tens; ++i) health.count(sharp_of_ten, 10, t_us += 100);
-    };
-    come(9, 500);
-    EXPECT_FALSE(health.is_against(below, 0.45));
-    EXPECT_TRUE(health.is_against(below, 0.3));
-    // Fewer fit, though they still do.
-    come(6, 200);
-    EXPECT_LT(health.relative_sharpness(), 0.85);
-    EXPECT_FALSE(health.is_against(below, 0.55));
-    EXPECT_TRUE(health.is_against(below, 0.45));
-}
-
 }  // namespace
 }  // namespace pursuit::tracker
