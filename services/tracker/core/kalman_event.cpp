@@ -19,17 +19,9 @@ constexpr double level_sigma_px = 0.2;
 constexpr double level_share = 0.5;  // an event of what is more likely something else tells of none
 
 // Of the motion.
-// As it sets out it goes no faster than so many times what its events tell (they may be fewer than
-// usual), and this.
-constexpr double times_told = 3;
-constexpr double set_out_px_s = 30;
 constexpr double bound_settles = 0.99;  // an event: the bound of the pose's σ back to the usual
 constexpr double onset_px2 = 0.5;       // variance, when it begins to move out of noise
 constexpr double onset_px_s = 200;      // σ of its speed then
-// Among strong noise.
-constexpr double sighted_sigma_px = 0.6;
-constexpr double sighted_speed_sigma_px_s = 100;
-
 }  // namespace
 
 // Lookups and what is measured of the contour are good for the pose.
@@ -99,39 +91,6 @@ template <TransformKind kind>
         spread(unspread_s_);
         unspread_s_ = 0;
     }
-}
-
-// Until it is known what is clutter it stands where it was put. How many events came meanwhile says
-// how fast it can be: else the first few, each a part of a pixel beside the contour, would tell of
-// thousands of px/s, and a model that is a pixel wrong would turn and shift before the next come.
-template <TransformKind kind>
-[[gnu::noinline]] void KalmanEstimator<kind>::set_out() {
-    has_set_out_ = true;
-    clock_.begin_way();
-    if (!parts_.event_clock || !clock_.is_told()) return;
-    const double fastest_px_s =
-        times_told * clock_.speed_px_s(effective_length_px()) + set_out_px_s;
-    for (int i = 0; i < Filter::dof; ++i) {
-        filter_.limit_variance(Filter::dof + i, fastest_px_s * fastest_px_s * unit2(i));
-    }
-}
-
-template <TransformKind kind>
-void KalmanEstimator<kind>::look_out(std::int64_t t_us) {
-    const Coast own{t_us, filter_.pose(), velocity()};
-    const auto to = watch_.look(own, clutter_, visible_share_, size_.gyration_px, size_.extent_px);
-    if (!to) return;
-    const double per_px = 1 / size_.gyration_px;
-    filter_.restart(to->pose, M::twist_of(to->velocity),
-                    step_of(sighted_sigma_px, sighted_sigma_px * per_px),
-                    step_of(sighted_speed_sigma_px_s, sighted_speed_sigma_px_s * per_px));
-    levels_.restart();
-    unspread_s_ = 0;
-    spread_after_s_ = 0;
-    steadiness_.restart();
-    // It did not go this way event by event.
-    clock_.begin_way();
-    way_begin_ = to->pose;
 }
 
 // The pose of the last near event and how far the object can have gone since tell.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the filter is spread as time goes on: how the object can have turned away, how fast it is by
-// its events, and what their silence tells. (Apart from what each event does.)
+// How it sets out, is sighted again, and is spread as time goes on: how the object can have turned
+// away, how fast it is by its events, and what their silence tells. (Apart from what each event
+// does.)
 #include <algorithm>
 #include <cmath>
 
@@ -21,8 +22,48 @@ constexpr double silent_events = 10;  // expected and not come: it stands still
 // after so much of a way or time.
 constexpr double spread_way_px = 0.05;
 constexpr double spread_s = 0.002;
+// As it sets out it goes no faster than so many times what its events tell (they may be fewer than
+// usual), and this.
+constexpr double times_told = 3;
+constexpr double set_out_px_s = 30;
+// Among strong noise.
+constexpr double sighted_sigma_px = 0.6;
+constexpr double sighted_speed_sigma_px_s = 100;
 
 }  // namespace
+
+// Until it is known what is clutter it stands where it was put. How many events came meanwhile says
+// how fast it can be: else the first few, each a part of a pixel beside the contour, would tell of
+// thousands of px/s, and a model that is a pixel wrong would turn and shift before the next come.
+template <TransformKind kind>
+[[gnu::noinline]] void KalmanEstimator<kind>::set_out() {
+    has_set_out_ = true;
+    clock_.begin_way();
+    if (!parts_.event_clock || !clock_.is_told()) return;
+    const double fastest_px_s =
+        times_told * clock_.speed_px_s(effective_length_px()) + set_out_px_s;
+    for (int i = 0; i < Filter::dof; ++i) {
+        filter_.limit_variance(Filter::dof + i, fastest_px_s * fastest_px_s * unit2(i));
+    }
+}
+
+template <TransformKind kind>
+void KalmanEstimator<kind>::look_out(std::int64_t t_us) {
+    const Coast own{t_us, filter_.pose(), velocity()};
+    const auto to = watch_.look(own, clutter_, visible_share_, size_.gyration_px, size_.extent_px);
+    if (!to) return;
+    const double per_px = 1 / size_.gyration_px;
+    filter_.restart(to->pose, M::twist_of(to->velocity),
+                    step_of(sighted_sigma_px, sighted_sigma_px * per_px),
+                    step_of(sighted_speed_sigma_px_s, sighted_speed_sigma_px_s * per_px));
+    levels_.restart();
+    unspread_s_ = 0;
+    spread_after_s_ = 0;
+    steadiness_.restart();
+    // It did not go this way event by event.
+    clock_.begin_way();
+    way_begin_ = to->pose;
+}
 
 template <TransformKind kind>
 void KalmanEstimator<kind>::spread(double dt_s) {
@@ -114,12 +155,20 @@ void KalmanEstimator<kind>::find_silent_way() {
     silent_way2_px2_ = way_px * way_px;
 }
 
+template void KalmanEstimator<TransformKind::isometry>::set_out();
+template void KalmanEstimator<TransformKind::isometry>::look_out(std::int64_t);
 template void KalmanEstimator<TransformKind::isometry>::spread(double);
 template void KalmanEstimator<TransformKind::isometry>::find_silent_way();
+template void KalmanEstimator<TransformKind::similarity>::set_out();
+template void KalmanEstimator<TransformKind::similarity>::look_out(std::int64_t);
 template void KalmanEstimator<TransformKind::similarity>::spread(double);
 template void KalmanEstimator<TransformKind::similarity>::find_silent_way();
+template void KalmanEstimator<TransformKind::paper_affine>::set_out();
+template void KalmanEstimator<TransformKind::paper_affine>::look_out(std::int64_t);
 template void KalmanEstimator<TransformKind::paper_affine>::spread(double);
 template void KalmanEstimator<TransformKind::paper_affine>::find_silent_way();
+template void KalmanEstimator<TransformKind::full_affine>::set_out();
+template void KalmanEstimator<TransformKind::full_affine>::look_out(std::int64_t);
 template void KalmanEstimator<TransformKind::full_affine>::spread(double);
 template void KalmanEstimator<TransformKind::full_affine>::find_silent_way();
 

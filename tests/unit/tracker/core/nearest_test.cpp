@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <cmath>
 #include <nanoflann.hpp>
 #include <random>
 
@@ -132,6 +133,29 @@ TEST(NearestPiece, agrees_with_a_kd_tree_on_a_large_model) {
         ASSERT_EQ(nearest.piece, expected);
         ASSERT_DOUBLE_EQ(nearest.squared_px, squared_px);
     }
+}
+
+TEST(NearestPiece, is_beyond_reach_where_it_finds_nothing_and_nowhere_within_reach) {
+    constexpr double reach_px = 6;
+    CandidateGrid grid({{-20, -10, 20, -10}, {20, -10, 0, 25}, {0, 25, -20, -10}});
+    EXPECT_TRUE(grid.is_beyond(0, -10)) << "nothing is laid out yet";
+    grid.build(reach_px, 1);
+    Random random(7);
+    int beyond = 0;
+    for (int i = 0; i < 100'000; ++i) {
+        const double x = random.between(-60, 60);
+        const double y = random.between(-60, 60);
+        const auto nearest = brute_force(grid.pieces(), x, y, ImageMetric());
+        const double distance_px = std::sqrt(nearest.squared_px);
+        const bool is_beyond = grid.is_beyond(x, y);
+        if (distance_px < reach_px) {
+            EXPECT_FALSE(is_beyond) << x << ", " << y;
+        }
+        EXPECT_EQ(is_beyond, grid.nearest(x, y, ModelMetric()).piece < 0) << x << ", " << y;
+        beyond += is_beyond ? 1 : 0;
+    }
+    EXPECT_GT(beyond, 1000);
+    EXPECT_LT(beyond, 99'000);
 }
 
 TEST(NearestPiece, finds_the_one_place_of_a_model_that_is_a_line) {
