@@ -54,6 +54,7 @@ class Health {
     }
 
     [[nodiscard]] double sharpness() const { return sharpness_; }
+    [[nodiscard]] double usual_sharpness() const { return usual_sharpness_; }
     /// The same beside what is usual for the object, 0 … 1 and a little more.
     [[nodiscard]] double relative_sharpness() const { return sharpness_ / usual_sharpness_; }
     /// Whether enough events came since the restart to tell.

@@ -146,7 +146,9 @@ void Track::run_off(std::int64_t t_us) {
 
 void Track::weigh(std::int64_t t_us) {
     const bool is_noise = estimator_->sees_noise_alone();
-    vanishing_.count_own(t_us, grip_.sharp(), grip_.astray());
+    const bool says_nothing = is_noise || grip_.health().is_quiet();
+    vanishing_.count_own(t_us, grip_.sharp(), grip_.astray(),
+                         says_nothing ? 0 : grip_.health().usual_sharpness());
     grip_.weigh(t_us, is_noise, estimator_->is_seen_here(), parameters_.let_go_sharpness);
     if (grip_.is_against()) doubted_us_ = t_us;
     const Health& health = grip_.health();

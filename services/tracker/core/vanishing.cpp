@@ -24,6 +24,10 @@ constexpr double fired_share = 0.4;
 constexpr double beyond_noise = 2;  // σ
 constexpr int fired_cells = 10;
 
+// More than a third of the inside: another shape in its place covers some of it. (Of scenes of
+// which all stay that are there, none has two cells that fire at once.)
+constexpr int changed_cells = 6;
+
 // Of a flicker of the light; and of the variance of the times that an edge passing explains.
 constexpr double most_about = 0.4;
 constexpr double most_passing = 0.5;
@@ -110,7 +114,7 @@ void Vanishing::divide(std::vector<std::size_t>& places, std::size_t first, std:
 }
 
 void Vanishing::restart() {
-    began_us_ = suspected_us_ = -1;
+    began_us_ = suspected_us_ = changed_us_ = -1;
     bin_end_us_ = 0;
     bins_ = 0;
     inside_ = {};
@@ -214,8 +218,14 @@ void Vanishing::note(const Event& event, std::uint8_t cell, const Eigen::Vector2
         if (t_us < suspected_us_ + bin_us && !is_of_object()) suspected_us_ = -1;
         return;
     }
-    if (cell == about || std::popcount(fired_) < fired_cells) return;
-    if (t_us - began_us_ < learnt_us || image_per_model2 < least_scale2 || !is_of_object()) return;
+    const int fired = std::popcount(fired_);
+    if (cell == about || fired < changed_cells) return;
+    if (t_us - began_us_ < learnt_us || image_per_model2 < least_scale2) return;
+    if (share_of_passing() >= most_passing) return;
+    // Until it changes no more: of what the last of it did, what comes is to be told.
+    changed_us_ = t_us;
+    since_.restart();
+    if (fired < fired_cells || !is_of_object()) return;
     suspected_us_ = t_us;
     own_since_ = own_variance_ = 0;
     needed_ = std::max(least_own, own_share * std::max(own_.usual, 0.0) *

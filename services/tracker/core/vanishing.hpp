@@ -10,6 +10,7 @@
 
 #include "services/common/event.hpp"
 #include "services/tracker/core/clamped.hpp"
+#include "services/tracker/core/fit_since.hpp"
 #include "services/tracker/core/pose.hpp"
 #include "services/tracker/core/silhouette.hpp"
 
@@ -28,6 +29,12 @@ namespace pursuit::tracker {
 ///
 /// What fires about the shape as well as in it is the light; what fires on one side first and on
 /// the other last is an edge that passes. A shape without enough of an inside is never suspected.
+///
+/// What is put in its place covers some of what it covered, and some of what is about it: only a
+/// part of the inside fires, and what is about fires as in the light. So whatever it was but an
+/// edge that passes, when more than a third of the inside has changed at once, what comes after it
+/// has to fit as usual. What does not is another's. (Of silence then nothing is told: the object
+/// may stand still.)
 class Vanishing {
  public:
     Vanishing() = default;
@@ -64,23 +71,35 @@ class Vanishing {
     }
 
     /// Some events within the gate of the contour, the last at this time: so many of them within a
-    /// quarter of the gate, and so many not.
-    void count_own(std::int64_t t_us, int sharp, int astray) {
+    /// quarter of the gate, and so many not. usual_share: of them within a quarter of it; 0 where
+    /// what comes says nothing of it.
+    void count_own(std::int64_t t_us, int sharp, int astray, double usual_share) {
         if (!can_tell()) return;
         reach(t_us);
         // What comes from anywhere makes nothing on the average.
         constexpr double of_astray = chance / (1 - chance);
         const double of_contour = sharp - of_astray * astray;
         own_.now += of_contour;
-        if (is_suspected() && t_us >= suspected_us_ + window_us) {
+        // What comes much later is of another time.
+        if (!is_suspected() && t_us >= changed_us_ + longest_us) changed_us_ = -1;
+        if (changed_us_ < 0 || t_us < changed_us_ + window_us) return;
+        since_.count(sharp, astray, usual_share);
+        if (is_suspected()) {
             own_since_ += of_contour;
             own_variance_ += sharp + of_astray * of_astray * astray;
             const double more = own_since_ - needed_;
-            if (more > 0 && more * more >= beyond_chance * beyond_chance * own_variance_) {
+            if (more > 0 && more * more >= beyond_chance * beyond_chance * own_variance_ &&
+                since_.is_as_usual()) {
                 // It fires all over by itself: what is usual has changed.
-                suspected_us_ = -1;
+                suspected_us_ = changed_us_ = -1;
                 began_us_ = t_us;
                 bins_ = 0;
+            }
+        } else if (t_us >= changed_us_ + verdict_us) {
+            if (since_.is_against()) {
+                suspected_us_ = changed_us_;
+            } else if (since_.is_as_usual()) {
+                changed_us_ = -1;
             }
         }
     }
@@ -96,6 +115,7 @@ class Vanishing {
     static constexpr std::int64_t bin_us = 2'500;
     static constexpr std::int64_t window_us = 2 * bin_us;
     static constexpr std::int64_t verdict_us = 35'000;
+    static constexpr std::int64_t longest_us = 100'000;
     static constexpr std::size_t cells = 16;
 
  private:
@@ -150,6 +170,8 @@ class Vanishing {
     std::array<Sums, 2> sums_before_{};
     std::uint32_t fired_ = 0;  // a bit for each cell
     std::int64_t suspected_us_ = -1;
+    std::int64_t changed_us_ = -1;  // a part of the inside or all of it; since then:
+    FitSince since_;
     double own_since_ = 0;
     double own_variance_ = 0;
     double needed_ = 0;

@@ -23,10 +23,11 @@ class WatchedBox {
         events_.push_back({t_us, static_cast<std::uint16_t>(x + side_px / 2),
                            static_cast<std::uint16_t>(y + side_px / 2), polarity});
     }
-    /// `per_ms` events a ms on its contour.
-    void moves(std::int64_t from_us, std::int64_t to_us, int per_ms) {
+    /// `per_ms` events a ms near its contour, this share of them on it.
+    void moves(std::int64_t from_us, std::int64_t to_us, int per_ms,
+               double on_contour = usual_share) {
         for (std::int64_t t_us = from_us; t_us < to_us; t_us += 1000 / per_ms)
-            own_us_.push_back(t_us);
+            own_.push_back({t_us, uniform() < on_contour});
     }
     /// Of `hz` a pixel.
     void noise(std::int64_t from_us, std::int64_t to_us, double hz) {
@@ -62,15 +63,15 @@ class WatchedBox {
         std::stable_sort(events_.begin(), events_.end(),
                          [](const Event& a, const Event& b) { return a.t_us < b.t_us; });
         const Pose middle = pose_of(side_px / 2, side_px / 2, 0);
-        auto own = own_us_.begin();
+        auto own = own_.begin();
         for (const Event& event : events_) {
-            for (; own != own_us_.end() && *own <= event.t_us; ++own) own_event(*own);
+            for (; own != own_.end() && own->t_us <= event.t_us; ++own) own_event(*own);
             const bool was_suspected = vanishing_.is_suspected();
             vanishing_.see(event, middle, pixels_.note(event).since_same_us);
             if (!was_suspected && vanishing_.is_suspected()) ++suspected_;
             was_gone_ |= vanishing_.is_gone(event.t_us);
         }
-        for (; own != own_us_.end(); ++own) own_event(*own);
+        for (; own != own_.end(); ++own) own_event(*own);
         was_gone_ |= vanishing_.is_gone(until_us);
         return vanishing_;
     }
@@ -78,11 +79,17 @@ class WatchedBox {
     [[nodiscard]] bool was_gone() const { return was_gone_; }
 
  private:
-    static constexpr int side_px = 120;
+    struct Own {
+        std::int64_t t_us;
+        bool is_sharp;
+    };
 
-    void own_event(std::int64_t t_us) {
-        vanishing_.count_own(t_us, 1, 0);
-        was_gone_ |= vanishing_.is_gone(t_us);
+    static constexpr int side_px = 120;
+    static constexpr double usual_share = 0.95;
+
+    void own_event(const Own& own) {
+        vanishing_.count_own(own.t_us, own.is_sharp ? 1 : 0, own.is_sharp ? 0 : 1, usual_share);
+        was_gone_ |= vanishing_.is_gone(own.t_us);
     }
     double uniform() { return static_cast<double>(random_()) / 4294967296.0; }
     int any_place() { return static_cast<int>(random_() % side_px) - side_px / 2; }
@@ -99,7 +106,7 @@ class WatchedBox {
     RecentPixels pixels_;
     std::mt19937 random_{7};
     std::vector<Event> events_;
-    std::vector<std::int64_t> own_us_;
+    std::vector<Own> own_;
     int suspected_ = 0;
     bool was_gone_ = false;
 };
@@ -126,6 +133,90 @@ TEST(Vanishing, is_none_where_the_contour_goes_on) {
     box.changes(100'000, 2'000, WatchedBox::is_covered);
     EXPECT_FALSE(box.watch(300'000).is_suspected());
     EXPECT_EQ(box.suspected(), 1);
+    EXPECT_FALSE(box.was_gone());
+}
+
+TEST(Vanishing, is_told_where_another_contour_makes_as_many_events_after_it) {
+    WatchedBox box;
+    box.noise(0, 300'000, 1);
+    box.moves(0, 100'000, 20);
+    box.changes(100'000, 2'000, WatchedBox::is_covered);
+    box.moves(100'000, 300'000, 20, 0.6);
+    const Vanishing& vanishing = box.watch(300'000);
+    EXPECT_TRUE(box.was_gone());
+    EXPECT_TRUE(vanishing.is_gone(140'000));
+}
+
+// What another shape covers as well does not change, and beside it it changes what is about.
+TEST(Vanishing, is_told_by_a_part_of_the_inside_at_once_and_events_that_do_not_fit_after_it) {
+    for (const int about_px : {0, 15}) {
+        for (const double on_contour : {0.25, 0.5}) {
+            WatchedBox box;
+            box.noise(0, 140'000, 1);
+            box.moves(0, 100'000, 20);
+            box.changes(100'000, 2'000, [&](int x, int y) {
+                return WatchedBox::is_covered(x, y) ? x < 0 : std::abs(y) < 20 + about_px;
+            });
+            box.moves(100'000, 140'000, 20, on_contour);
+            EXPECT_TRUE(box.watch(140'000).is_gone(140'000)) << about_px << " " << on_contour;
+        }
+    }
+}
+
+TEST(Vanishing, is_none_where_a_part_of_the_inside_fires_and_what_comes_fits_as_usual) {
+    for (const int per_ms : {1, 20}) {
+        WatchedBox box;
+        box.noise(0, 300'000, 1);
+        box.moves(0, 300'000, per_ms);
+        box.changes(100'000, 2'000,
+                    [](int x, int y) { return WatchedBox::is_covered(x, y) && x < 0; });
+        box.watch(300'000);
+        EXPECT_FALSE(box.was_gone()) << per_ms;
+    }
+}
+
+TEST(Vanishing, is_none_where_a_part_of_the_inside_fires_and_nothing_comes_after_it) {
+    WatchedBox box;
+    box.noise(0, 300'000, 1);
+    box.moves(0, 100'000, 20);
+    box.changes(100'000, 2'000, [](int x, int y) { return WatchedBox::is_covered(x, y) && x < 0; });
+    box.watch(300'000);
+    EXPECT_FALSE(box.was_gone());
+}
+
+TEST(Vanishing, is_none_where_what_does_not_fit_comes_long_after_a_part_of_the_inside_fired) {
+    WatchedBox box;
+    box.noise(0, 300'000, 1);
+    box.moves(0, 100'000, 20);
+    box.changes(100'000, 2'000, [](int x, int y) { return WatchedBox::is_covered(x, y) && x < 0; });
+    box.moves(220'000, 300'000, 20, 0.3);
+    box.watch(300'000);
+    EXPECT_FALSE(box.was_gone());
+}
+
+TEST(Vanishing, is_none_where_an_edge_passes_over_it_and_what_comes_then_does_not_fit) {
+    for (const double speed_px_s : {4'000.0, 10'000.0}) {
+        WatchedBox box;
+        box.noise(0, 300'000, 1);
+        box.moves(0, 100'000, 20);
+        box.edge_passes(100'000, speed_px_s, 1);
+        box.moves(100'000, 200'000, 20, 0.3);
+        box.watch(300'000);
+        EXPECT_FALSE(box.was_gone()) << speed_px_s;
+    }
+}
+
+// Its events and the light's together do not fit as usual; after it they do.
+TEST(Vanishing, is_none_where_the_light_flickers_for_a_while_and_the_contour_goes_on) {
+    WatchedBox box;
+    box.noise(0, 400'000, 1);
+    box.moves(0, 100'000, 20);
+    for (std::int64_t t_us = 100'000; t_us < 130'000; t_us += 6'000) {
+        box.changes(t_us, 2'000, [](int, int) { return true; });
+    }
+    box.moves(100'000, 130'000, 20, 0.5);
+    box.moves(130'000, 400'000, 20);
+    box.watch(400'000);
     EXPECT_FALSE(box.was_gone());
 }
 
