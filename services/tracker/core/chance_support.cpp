@@ -10,9 +10,6 @@ namespace {
 constexpr std::size_t least_tiles = 16;
 constexpr int neighbours = 8;
 
-// Of the noise no more may have so many neighbours. (An edge that is slow has three or four.)
-constexpr double most_by_chance = 0.3;
-
 }  // namespace
 
 void ChanceSupport::begin(int width_px, int height_px) {
@@ -21,7 +18,7 @@ void ChanceSupport::begin(int width_px, int height_px) {
     fired_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
 }
 
-int ChanceSupport::least_neighbours(double over_us, double within_us) {
+int ChanceSupport::least_neighbours(double over_us, double within_us, double by_chance) {
     if (fired_.size() < least_tiles || !(over_us > 0)) return 1;
     const auto quiet = fired_.begin() + static_cast<std::ptrdiff_t>(fired_.size() / 4);
     std::nth_element(fired_.begin(), quiet, fired_.end());
@@ -33,7 +30,7 @@ int ChanceSupport::least_neighbours(double over_us, double within_us) {
     double exactly = std::pow(1 - p, neighbours);
     double beyond = 1 - exactly;
     int least = 1;
-    for (; least < neighbours && beyond > most_by_chance; ++least) {
+    for (; least < neighbours && beyond > by_chance; ++least) {
         exactly *= p / (1 - p) * (neighbours + 1 - least) / least;
         beyond -= exactly;
     }

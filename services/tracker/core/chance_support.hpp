@@ -23,8 +23,9 @@ class ChanceSupport {
         }
     }
     /// So many of its eight neighbours must have fired within a time for an event to stand out of
-    /// the noise; the box was looked at for over_us. 1 where there is little noise.
-    [[nodiscard]] int least_neighbours(double over_us, double within_us);
+    /// the noise, of which this share has as many by chance; the box was looked at for over_us. 1
+    /// where there is little noise.
+    [[nodiscard]] int least_neighbours(double over_us, double within_us, double by_chance);
 
  private:
     static constexpr int tile_px = 16;  // a few dozen of its pixels fire in strong noise

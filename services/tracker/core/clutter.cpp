@@ -79,7 +79,7 @@ void Clutter::restart() {
     usual_near_hz_ = 0;
     bin_events_ = bin_mean_ = bin_variance_ = bins_ = 0;
     bin_end_us_ = 0;
-    clutter_hz_ = noise_hz_ = 0;
+    noise_on_contour_hz_ = noise_hz_ = counted_hz_ = 0;
     most_noise_hz_ = std::numeric_limits<double>::infinity();
     bounded_us_ = 0;
     remembered_ = 0;
@@ -176,7 +176,7 @@ void Clutter::settle() {
 void Clutter::weigh_noise() {
     const auto since_near_us = static_cast<double>(t_us_ - last_near_us_);
     const double more =
-        log_more_than_noise - (more_than_noise - 1) * clutter_hz_ * since_near_us * 1e-6;
+        log_more_than_noise - (more_than_noise - 1) * noise_on_contour_hz_ * since_near_us * 1e-6;
     for_more_ = std::max(for_more_ + more, 0.0);
     for_noise_ = std::max(for_noise_ - more, 0.0);
     if (is_noise_alone_ && for_more_ > surely) {
@@ -241,7 +241,7 @@ void Clutter::bound_noise(std::int64_t t_us, double most_hz) {
 }
 
 bool Clutter::seems_steady() const {
-    if (!can_be_noise(noise_hz_)) return false;
+    if (!can_be_noise(counted_hz_)) return false;
     const double enough = bin_mean_ > many_events ? least_bins_of_many : least_bins;
     if (bins_ < enough || bin_mean_ < few_events) return false;
     const double left = far_hz_[0] * whole_.far_area_px2[1];
@@ -270,12 +270,12 @@ void Clutter::fold(std::int64_t t_us) {
                           std::max(whole_.far_area_px2[side], 1.0) * whole_.near_width_px[side];
         clutter_hz += beside_hz[side] * near_px;
     }
-    set_steady(seems_steady());
-    clutter_hz_ = clutter_hz;
     const double near_px2 = (whole_.near_width_px[0] + whole_.near_width_px[1]) * near_px;
-    const double of_px_hz = clutter_hz / std::max(near_px2, 1.0);
-    noise_hz_ = of_px_hz;
-    is_swamped_ = is_steady_ && of_px_hz > (is_swamped_ ? 0.75 : 1) * swamping_hz &&
+    counted_hz_ = clutter_hz / std::max(near_px2, 1.0);
+    set_steady(seems_steady());
+    noise_hz_ = std::min(counted_hz_, most_noise_hz_);
+    noise_on_contour_hz_ = noise_hz_ * near_px2;
+    is_swamped_ = is_steady_ && noise_hz_ > (is_swamped_ ? 0.75 : 1) * swamping_hz &&
                   whole_.own_share < (is_swamped_ ? surfaced_share : swamped_share);
     const double own_hz = std::max({near_hz - clutter_hz, 0.1 * near_hz, 1e-3});
     for (std::size_t side = 0; side < 2; ++side) standing_density_[side] = beside_hz[side] / own_hz;

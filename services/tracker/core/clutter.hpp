@@ -72,7 +72,9 @@ class Clutter {
     /// steady as chance. (The edges of other things come and go.)
     [[nodiscard]] bool is_noise_alone() const { return is_noise_alone_ && is_steady(); }
 
-    /// What is told for noise on the contour and beside it, Hz a px², if is_steady(): …
+    /// What is told for noise on the contour and beside it, Hz a px², if is_steady(): as much as is
+    /// counted beside it, where other things pass as well, and no more than the pixels about the
+    /// object show; …
     [[nodiscard]] double noise_hz() const { return noise_hz_; }
 
     /// … what comes beside it comes as chance has it, everywhere alike; not as other things that
@@ -160,7 +162,8 @@ class Clutter {
     std::int64_t bounded_us_ = 0;
     double usual_near_hz_ = 0;
     bool is_quiet_ = false;  // far fewer events than usual: most are not its own
-    double clutter_hz_ = 0;
+    double counted_hz_ = 0;  // beside it, a px²
+    double noise_on_contour_hz_ = 0;
     double remembered_ = 0;
     std::array<double, 2> new_far_{};
     std::array<double, 2> far_hz_{};

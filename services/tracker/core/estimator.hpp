@@ -69,6 +69,9 @@ class Estimator {
     /// Uses the event with a weight 0 … 1; false where it came to nothing.
     virtual bool take(double weight) = 0;
 
+    /// The event that was asked for last lies on another object's contour.
+    virtual void disown(const Event& event) { static_cast<void>(event); }
+
     /// How far from the pose's place an event until t_us can be and concern the object, px.
     [[nodiscard]] virtual double reach_px(std::int64_t t_us) const = 0;
 

@@ -15,6 +15,9 @@ constexpr std::int64_t round_us = 500;
 // what they move it.
 constexpr std::uint64_t placed_every_events = 8;
 
+// What is so near to one object's contour shows nothing of another.
+constexpr double on_contour_px = 1;
+
 // How far ahead of the event in hand the pixels of those to come are fetched from memory.
 constexpr std::size_t prefetched = 16;
 
@@ -193,14 +196,25 @@ void EventLoop::wake(std::int64_t t_us) {
         return;
     }
     arbiter_.begin();
+    double nearest2_px2 = on_contour_px * on_contour_px;
+    std::size_t nearest = tracks_.size();
     concerned.for_each([&](std::size_t i) {
         if (const Approach* const near = approach(event, i, past)) {
             arbiter_.claim(i, tracks_[i].object_id(), near->distance_px(), near->clutter);
+            if (near->contour2_px2 < nearest2_px2 && tracks_[i].is_followed()) {
+                nearest2_px2 = near->contour2_px2;
+                nearest = i;
+            }
         }
     });
     if (arbiter_.count() == 0) {
         ++counters_.events_unused;
         return;
+    }
+    if (nearest < tracks_.size()) {
+        concerned.for_each([&](std::size_t i) {
+            if (i != nearest) tracks_[i].disown(event);
+        });
     }
 
     // Whose it is (section 3.3), and the steps that follow from it (3.2).

@@ -21,6 +21,14 @@ struct FiredCounts {
         const auto row = static_cast<unsigned>(y - top);
         if (column < side && row < side) ++events[row * side + column][polarity & 1];
     }
+    /// One that was seen is not to be counted.
+    void forget(std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
+        const auto column = static_cast<unsigned>(x - left);
+        const auto row = static_cast<unsigned>(y - top);
+        if (column >= side || row >= side) return;
+        std::uint16_t& count = events[row * side + column][polarity & 1];
+        if (count > 0) --count;
+    }
     void clear() { std::fill(events.begin(), events.end(), std::array<std::uint16_t, 2>{}); }
 };
 

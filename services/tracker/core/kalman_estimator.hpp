@@ -53,6 +53,9 @@ class KalmanEstimator : public Estimator {
     void stand_still() override {
         if (!watch_.is_on()) filter_.slow_down(0);
     }
+    void disown(const Event& event) override {
+        if (watch_.is_on()) watch_.disown(event);
+    }
     [[nodiscard]] bool sees_noise_alone() const override {
         return watch_.is_on() ? watch_.is_unseen() : clutter_.is_noise_alone();
     }

@@ -38,6 +38,10 @@ class Lookout {
     void see(std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
         fresh_.see(x, y, polarity);
     }
+    /// It is another object's.
+    void disown(std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
+        fresh_.forget(x, y, polarity);
+    }
     /// What was seen since the last look.
     [[nodiscard]] const FiredCounts& fresh() const { return fresh_; }
 

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/noise_watch.hpp"
 
+#include <utility>
+
 namespace pursuit::tracker {
 namespace {
 
-// A pixel. Where there is less, the estimator does as well alone; and the edges of other things,
-// slow ones, can be as steady as noise of 4 Hz.
-constexpr double strong_hz = 7;
+// A pixel. Where there is less, the estimator does as well alone, and better beside what hides the
+// object (of what is held it is not told how much should come), …
+constexpr double strong_hz = 12;
+// … but not until the object has shown where it is, nor when it has lost it. (What is less than
+// this carries nothing off.) When it went well for so long without the watch, it has shown.
+constexpr double strong_for_unseen_hz = 3.5;
+constexpr std::int64_t seen_without_us = 500'000;
 // Not so steady any more it is still the noise that it was, within these; an object that comes out
 // of it makes it uneven.
 constexpr double least_of_noise = 0.6;
@@ -41,7 +47,8 @@ void NoiseWatch::restart(const Pose& pose, const Velocity& velocity) {
     start_ = held_ = {0, pose, velocity};
     is_on_ = is_sighted_ = is_confirmed_ = is_seen_here_ = false;
     looks_ = plain_looks_ = sighted_looks_ = 0;
-    is_creeping_ = false;
+    is_creeping_ = has_shown_ = false;
+    creeping_looks_ = 0;
     began_us_ = -1;
     due_us_ = 0;
 }
@@ -55,7 +62,8 @@ void NoiseWatch::tell_noise(const Clutter& clutter, double visible_share) {
     }
     const double hz = clutter.noise_hz();
     if (clutter.is_steady()) {
-        is_on_ = hz > strong_hz;
+        has_shown_ &= !clutter.is_noise_alone();
+        is_on_ = hz > (has_shown_ ? strong_hz : strong_for_unseen_hz);
         noise_hz_ = hz;
     } else if (is_on_) {
         is_on_ = hz > least_of_noise * noise_hz_ && hz < most_of_noise * noise_hz_;
@@ -73,8 +81,13 @@ std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter,
     due_us_ = own.t_us + Lookout::every_us;
     if (began_us_ < 0) began_us_ = own.t_us;
     const bool was_on = is_on_;
+    has_shown_ |= !was_on && own.t_us - began_us_ > seen_without_us;
     tell_noise(clutter, extent_px < Lookout::most_extent_px ? visible_share : 0);
-    if (!is_on_) return std::nullopt;
+    if (!is_on_) {
+        // The estimator goes on as it was seen to go.
+        if (!std::exchange(is_creeping_, false)) return std::nullopt;
+        return held_.at(own.t_us, longest_s);
+    }
     if (!was_on) {
         is_seen_here_ = false;
         lookout_.restart();
@@ -114,6 +127,7 @@ std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter,
     is_sighted_ = own_z > (is_sighted_ ? still_here_z : here_z);
     sighted_looks_ = is_sighted_ ? sighted_looks_ + 1 : 0;
     is_confirmed_ |= own_z > confirmed_z || sighted_looks_ > looks_of_chance;
+    has_shown_ |= sighted_looks_ >= sure_looks;
     if (is_sighted_) {
         is_creeping_ = false;
         return std::nullopt;
@@ -130,8 +144,10 @@ std::optional<Coast> NoiseWatch::look_slowly(const Coast& own, double gyration_p
         is_creeping_ =
             is_creeping_ ? sight.z > still_creeping_z : sight.z > creeping_z && sight.is_all_around;
         if (is_creeping_) {
+            has_shown_ |= ++creeping_looks_ >= sure_looks;
             held_ = sight.best;
         } else {
+            creeping_looks_ = 0;
             held_.velocity = {};
         }
     }

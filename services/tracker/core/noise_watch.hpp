@@ -39,6 +39,8 @@ class NoiseWatch {
 
     /// An event about the object.
     void see(const Event& event) { lookout_.see(event.x, event.y, event.polarity); }
+    /// The last one is another object's: it shows nothing of this one.
+    void disown(const Event& event) { lookout_.disown(event.x, event.y, event.polarity); }
 
     [[nodiscard]] bool is_due(std::int64_t t_us) const { return t_us >= due_us_; }
 
@@ -66,11 +68,13 @@ class NoiseWatch {
     bool is_sighted_ = false;
     bool is_confirmed_ = false;
     bool is_seen_here_ = false;  // as of the last look
+    bool has_shown_ = false;     // for a while, since it began or seemed to be gone
     bool is_creeping_ = false;   // where it is held
     double noise_hz_ = 0;        // when it was steady
     int looks_ = 0;
-    int plain_looks_ = 0;    // in turn
-    int sighted_looks_ = 0;  // since it was put there
+    int creeping_looks_ = 0;  // in turn
+    int plain_looks_ = 0;     // in turn
+    int sighted_looks_ = 0;   // since it was put there
     std::int64_t began_us_ = -1;
     std::int64_t due_us_ = 0;
 };

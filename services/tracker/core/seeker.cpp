@@ -29,6 +29,11 @@ constexpr std::int64_t most_poses = 4'000;
 // Events a px of contour: of a way of 2 px or so, when the shape is alone.
 constexpr double events_per_px = 3;
 
+// Of the noise no more than this share may have the neighbours that an event is to have. (An edge
+// that is slow has three or four.) What moves an object by the few events about it is more careful.
+constexpr double noise_in_search = 0.3;
+constexpr double noise_in_check = 0.1;
+
 // What an object is moved to has to explain what fired there as well, beside scoring higher.
 constexpr double explained_weight = 1;
 
@@ -265,7 +270,7 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
     if (fired_us_.size() < pixels) fired_us_.resize(pixels, never_us);
     looked_at_.clear();
     neighbours_.clear();
-    if (!is_check_) chance_.begin(box.right - box.left, box.bottom - box.top);
+    chance_.begin(box.right - box.left, box.bottom - box.top);
     std::int64_t first_us = t_us;
     // Forwards, as they came: supported by a neighbour that fired shortly before.
     const std::int64_t since_us = std::max(t_us - look_.window_us, range.since_us);
@@ -281,7 +286,7 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
         for (const std::size_t row : {at - columns, at + columns}) {
             neighbours += fired_since(row - 1) + fired_since(row) + fired_since(row + 1);
         }
-        if (!is_check_ && fired_us[at] == never_us) {
+        if (fired_us[at] == never_us) {
             chance_.add(event.x - box.left, event.y - box.top);
         }
         fired_us[at] = now_us;
@@ -292,15 +297,15 @@ void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_p
         neighbours_.push_back(static_cast<std::uint8_t>(neighbours));
     });
     for (const std::size_t pixel : looked_at_) fired_us_[pixel] = never_us;
-    // (A check looks over little of the image, mostly the object itself.)
-    if (!is_check_) leave_out_noise(static_cast<double>(t_us - first_us));
+    leave_out_noise(static_cast<double>(t_us - first_us));
     if (gathered_.size() > count) {
         gathered_.erase(gathered_.begin(), gathered_.end() - static_cast<std::ptrdiff_t>(count));
     }
 }
 
 void Seeker::leave_out_noise(double over_us) {
-    const int least = chance_.least_neighbours(over_us, static_cast<double>(look_.neighbour_us));
+    const int least = chance_.least_neighbours(over_us, static_cast<double>(look_.neighbour_us),
+                                               is_check_ ? noise_in_check : noise_in_search);
     if (least == 1) return;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < gathered_.size(); ++i) {

@@ -79,6 +79,10 @@ class Track {
 
     /// An event that would have been the object's, were it not hidden there.
     void deny();
+    /// Its place is known: what lies on its contour is its own.
+    [[nodiscard]] bool is_followed() const { return !is_searching_ && !is_acquiring_; }
+    /// The event that was asked for last lies on the contour of another that is followed.
+    void disown(const Event& event) { estimator_->disown(event); }
 
     // For Seeker.
     /// Where to look for the object, while its place is not known.

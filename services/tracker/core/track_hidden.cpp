@@ -22,7 +22,7 @@ bool Track::can_hide() const {
            grip_.health().is_settled();
 }
 
-bool Track::can_be_hidden() const { return !is_searching_ && !is_acquiring_; }
+bool Track::can_be_hidden() const { return is_followed(); }
 
 Going Track::going() const {
     return {pose().a, is_covered_ ? hidden_way_.last().velocity : estimator_->velocity()};

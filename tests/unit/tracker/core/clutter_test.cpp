@@ -60,9 +60,14 @@ TEST(Clutter, takes_for_noise_what_is_steady_and_comes_from_everywhere) {
 }
 
 TEST(Clutter, takes_nothing_for_noise_that_the_other_pixels_do_not_make) {
-    const Clutter clutter = in_steady_noise(5);
-    EXPECT_NEAR(clutter.noise_hz(), 50, 10);
-    EXPECT_FALSE(clutter.is_steady());
+    EXPECT_FALSE(in_steady_noise(5).is_steady());
+}
+
+TEST(Clutter, tells_the_noise_that_is_counted_and_no_more_than_the_other_pixels_show) {
+    EXPECT_NEAR(in_steady_noise(1000).noise_hz(), 50, 10);
+    const Clutter clutter = in_steady_noise(30);
+    EXPECT_TRUE(clutter.is_steady());
+    EXPECT_EQ(clutter.noise_hz(), 30);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -129,6 +130,28 @@ TEST_F(LookingOut, sees_nothing_where_there_is_noise_alone) {
     EXPECT_LE(times_elsewhere_, 1);
 }
 
+TEST_F(LookingOut, sees_nothing_of_what_is_another_objects) {
+    const auto truth = [](double t_us) { return pose_of(150 + 60e-6 * t_us, 120, 0.3); };
+    const auto events = outline_events(shape_, truth, 0, 24'500, moving_per_ms, 0, small_sensor, 4);
+    Coast own{0, truth(24'000), {}};
+    lookout_.look(own, contour_.gyration_px(), contour_.radius_px(), true);
+    for (const Event& event : events) {
+        lookout_.see(event.x, event.y, event.polarity);
+        lookout_.disown(event.x, event.y, event.polarity);
+    }
+    const auto& seen = lookout_.fresh().events;
+    EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](const auto& of_pixel) {
+        return of_pixel[0] == 0 && of_pixel[1] == 0;
+    }));
+    // What was never seen is not missed.
+    lookout_.disown(150, 120, 1);
+    lookout_.disown(0, 0, 0);
+    lookout_.see(150, 120, 1);
+    EXPECT_EQ(std::count_if(seen.begin(), seen.end(),
+                            [](const auto& of_pixel) { return of_pixel[1] == 1; }),
+              1);
+}
+
 TEST_F(LookingOut, takes_the_border_of_the_image_for_nothing) {
     // What lies beyond it makes no events.
     look_at(outline_events(
@@ -183,7 +206,7 @@ TEST(NoiseWatch, takes_an_object_up_that_stood_a_few_px_off) {
 
 TEST(NoiseWatch, goes_with_an_object_that_creeps) {
     const Shape shape = test::arrow();
-    for (const double noise_hz : {10.0, 100.0}) {
+    for (const double noise_hz : {5.0, 10.0, 100.0}) {
         const auto truth = [](double t_us) {
             return pose_of(120 + 25e-6 * t_us, 120, 0.3 + 0.3e-6 * t_us);
         };
@@ -195,6 +218,33 @@ TEST(NoiseWatch, goes_with_an_object_that_creeps) {
                                        noise_per_ms(noise_hz), small_sensor, 9),
                         poses);
         EXPECT_LT(rms_px(shape, poses.rows.back().record.pose, truth(999'000)), 1) << noise_hz;
+    }
+}
+
+TEST(NoiseWatch, keeps_an_object_that_creeps_where_the_edges_of_another_pass_it) {
+    const Shape shape = test::arrow();
+    const Shape wall = test::polygon("wall", {{-20, -60}, {20, -60}, {20, 60}, {-20, 60}});
+    const auto truth = [](double t_us) { return pose_of(120 + 20e-6 * t_us, 120, 0.3); };
+    const auto passing = [](double t_us) { return pose_of(60 + 80e-6 * t_us, 55, 0); };
+    Tracker tracker = test::that_follows_an_arrow(truth(0));
+    Registration other;
+    other.shape = wall;
+    other.estimator = EstimatorKind::kalman;
+    other.start.pose = passing(0);
+    ASSERT_TRUE(tracker.register_object(other));
+    auto events = outline_events(shape, truth, 0, 2'000'000, moving_per_ms, noise_per_ms(15),
+                                 small_sensor, 13);
+    const auto of_wall =
+        outline_events(wall, passing, 0, 2'000'000, 2 * moving_per_ms, 0, small_sensor, 14);
+    events.insert(events.end(), of_wall.begin(), of_wall.end());
+    std::stable_sort(events.begin(), events.end(),
+                     [](const Event& l, const Event& r) { return l.t_us < r.t_us; });
+    test::Poses poses;
+    tracker.process(events, poses);
+    for (const auto& row : poses.rows) {
+        if (row.record.object_id != 1) continue;
+        const auto t_us = static_cast<double>(row.record.t_us);
+        ASSERT_LT(rms_px(shape, row.record.pose, truth(t_us)), 3) << t_us;
     }
 }
 
