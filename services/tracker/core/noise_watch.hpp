@@ -19,7 +19,8 @@ namespace pursuit::tracker {
 ///      └── less noise ──             └────────────────────────────────────────────────┴────┘
 ///
 /// What stands out by chance is gone a few looks later, and the object is put back; what stands out
-/// plainly or goes on to stand out is confirmed.
+/// plainly or goes on to stand out is confirmed. Until it has shown once, and when what comes seems
+/// to be noise alone, less noise counts for strong.
 class NoiseWatch {
  public:
     NoiseWatch() = default;
@@ -44,8 +45,8 @@ class NoiseWatch {
 
     [[nodiscard]] bool is_due(std::int64_t t_us) const { return t_us >= due_us_; }
 
-    /// Where to put the object, if not where it is thought to be. gyration_px, extent_px: of the
-    /// contour in the image.
+    /// Where to put the object, if not where it is thought to be; or, as it is left alone, how it
+    /// creeps. gyration_px, extent_px: of the contour in the image.
     std::optional<Coast> look(const Coast& own, const Clutter& clutter, double visible_share,
                               double gyration_px, double extent_px);
 
