@@ -9,22 +9,22 @@
 namespace pursuit::tracker {
 namespace {
 
-constexpr Geometry geometry{200, 160};
+constexpr Geometry small_image{200, 160};
 constexpr double extent_px = 30;
 const Eigen::Vector2d middle_px(100, 80);
 
 class MostNoise : public testing::Test {
  protected:
-    MostNoise() { pixels_.restart(geometry); }
+    MostNoise() { pixels_.restart(small_image); }
 
     /// Noise of all pixels, for 200 ms.
     void fire(double hz) {
         std::mt19937 random(1);
-        const double each_us = 1e6 / (hz * geometry.width * geometry.height);
+        const double each_us = 1e6 / (hz * small_image.width * small_image.height);
         for (double t_us = 0; t_us < 200e3; t_us += each_us) {
             pixels_.note({static_cast<std::int64_t>(t_us),
-                          static_cast<std::uint16_t>(random() % geometry.width),
-                          static_cast<std::uint16_t>(random() % geometry.height), 1});
+                          static_cast<std::uint16_t>(random() % small_image.width),
+                          static_cast<std::uint16_t>(random() % small_image.height), 1});
         }
     }
 
