@@ -90,7 +90,7 @@ class Clutter {
     [[nodiscard]] std::int64_t asks_for_noise_of_us(std::int64_t t_us) const;
     void bound_noise(std::int64_t t_us, double most_hz);
 
-    /// Whether steady noise of 200 Hz a pixel and more leaves next to nothing of what is on the
+    /// Whether steady noise of 150 Hz a pixel and more leaves next to nothing of what is on the
     /// contour to the object; until half of it is.
     [[nodiscard]] bool is_swamped() const { return is_swamped_; }
 
