@@ -85,7 +85,12 @@ TEST_F(Dds, counts_each_malformed_sample_of_a_keyed_topic_once_and_goes_on) {
     qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
     auto* writer = one_->publisher().create_datawriter(*topic, qos);
     ASSERT_NE(writer, nullptr);
-    ASSERT_TRUE(eventually([&] { return (*reader)->matched() == 1; }));
+    // Both: what is written before the writer knows of the reader is for nobody.
+    ASSERT_TRUE(eventually([&] {
+        eprosima::fastdds::dds::PublicationMatchedStatus of_writer;
+        writer->get_publication_matched_status(of_writer);
+        return (*reader)->matched() == 1 && of_writer.current_count == 1;
+    }));
     std::uint64_t sent = 0;
     for (auto& sample : testing::malformed_samples()) {
         ASSERT_TRUE(writer->write(&sample));
@@ -95,7 +100,8 @@ TEST_F(Dds, counts_each_malformed_sample_of_a_keyed_topic_once_and_goes_on) {
     EXPECT_EQ(two_->counts().malformed->load(), sent);
     auto good = join(domain_.settings());
     auto pose_writer = Writer<v1::ObjectPose>::create(*good, topic::poses);
-    ASSERT_TRUE(eventually([&] { return (*pose_writer)->matched() == 1; }));
+    ASSERT_TRUE(
+        eventually([&] { return (*pose_writer)->matched() == 1 && (*reader)->matched() == 2; }));
     v1::ObjectPose pose;
     pose.object_id(1);
     ASSERT_TRUE((*pose_writer)->write(pose));
