@@ -211,6 +211,7 @@ void EventLoop::wake(std::int64_t t_us) {
         ++counters_.events_unused;
         return;
     }
+    // What lies on the contour of one shows nothing of the others.
     if (nearest < tracks_.size()) {
         concerned.for_each([&](std::size_t i) {
             if (i != nearest) tracks_[i].disown(event);

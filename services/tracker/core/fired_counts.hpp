@@ -17,17 +17,19 @@ struct FiredCounts {
     std::vector<std::array<std::uint16_t, 2>> events;
 
     void see(std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
-        const auto column = static_cast<unsigned>(x - left);
-        const auto row = static_cast<unsigned>(y - top);
-        if (column < side && row < side) ++events[row * side + column][polarity & 1];
+        if (std::uint16_t* const count = count_of(x, y, polarity)) ++*count;
     }
     /// One that was seen is not to be counted.
     void forget(std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
+        std::uint16_t* const count = count_of(x, y, polarity);
+        if (count != nullptr && *count > 0) --*count;
+    }
+    /// Null where the pixel is not in the window.
+    [[nodiscard]] std::uint16_t* count_of(std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
         const auto column = static_cast<unsigned>(x - left);
         const auto row = static_cast<unsigned>(y - top);
-        if (column >= side || row >= side) return;
-        std::uint16_t& count = events[row * side + column][polarity & 1];
-        if (count > 0) --count;
+        if (column >= side || row >= side) return nullptr;
+        return &events[row * side + column][polarity & 1];
     }
     void clear() { std::fill(events.begin(), events.end(), std::array<std::uint16_t, 2>{}); }
 };

@@ -175,20 +175,23 @@ TEST(Vanishing, is_none_where_a_part_of_the_inside_fires_and_what_comes_fits_as_
     }
 }
 
-TEST(Vanishing, is_none_where_a_part_of_the_inside_fires_and_nothing_comes_after_it) {
-    WatchedBox box;
+/// At 100 ms, and then nothing but noise until 300 ms.
+void go_until_half_of_the_inside_changes(WatchedBox& box) {
     box.noise(0, 300'000, 1);
     box.moves(0, 100'000, 20);
     box.changes(100'000, 2'000, [](int x, int y) { return WatchedBox::is_covered(x, y) && x < 0; });
+}
+
+TEST(Vanishing, is_none_where_a_part_of_the_inside_fires_and_nothing_comes_after_it) {
+    WatchedBox box;
+    go_until_half_of_the_inside_changes(box);
     box.watch(300'000);
     EXPECT_FALSE(box.was_gone());
 }
 
 TEST(Vanishing, is_none_where_what_does_not_fit_comes_long_after_a_part_of_the_inside_fired) {
     WatchedBox box;
-    box.noise(0, 300'000, 1);
-    box.moves(0, 100'000, 20);
-    box.changes(100'000, 2'000, [](int x, int y) { return WatchedBox::is_covered(x, y) && x < 0; });
+    go_until_half_of_the_inside_changes(box);
     box.moves(220'000, 300'000, 20, 0.3);
     box.watch(300'000);
     EXPECT_FALSE(box.was_gone());
