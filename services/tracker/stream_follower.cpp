@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "services/tracker/core/tracker_options.hpp"
+
 namespace pursuit::tracker {
 
 bool StreamFollower::was_left(std::uint64_t stream_id) const {
