@@ -68,7 +68,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
     levels_.restart();
     // (A model of a recording's events lies where they come from.)
     noise_.restart(parts_.measurement_noise && !contour_.is_of_events());
-    most_pose_sigma_px_ = most_pose_sigma_px;
+    most_pose_sigma_px_ = usual_pose_sigma_px;
     residual_px_ = 0.5;
     t_us_ = -1;
     way_begin_ = pose;
@@ -118,7 +118,7 @@ void KalmanEstimator<kind>::resume(std::int64_t t_us, const Pose& pose, const Ve
     filter_.add_position_variance((along_px * along_px - resumed_sigma_px * resumed_sigma_px) *
                                   direction * direction.transpose());
     measure_size();
-    most_pose_sigma_px_ = std::max(most_pose_sigma_px, along_px);
+    most_pose_sigma_px_ = std::max(usual_pose_sigma_px, along_px);
     levels_.restart();
     way_begin_ = pose;
     t_us_ = t_us;

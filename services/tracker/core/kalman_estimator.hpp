@@ -38,6 +38,7 @@ class KalmanEstimator : public Estimator {
     void resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity,
                 double way_px) override;
     void set_visible_share(double share) override { visible_share_ = share; }
+    void set_beside_another(bool is_beside) override { watch_.set_beside_another(is_beside); }
     void set_usual_way(const UsualWay& way) override { usual_way_ = way; }
     void set_blind_us(double blind_us) override {
         lead_prior_.set_blind_us(blind_us);
@@ -57,7 +58,7 @@ class KalmanEstimator : public Estimator {
         if (watch_.is_on()) watch_.disown(event);
     }
     [[nodiscard]] bool sees_noise_alone() const override {
-        return watch_.is_on() ? watch_.is_unseen() : clutter_.is_noise_alone();
+        return watch_.helps() ? watch_.is_unseen() : clutter_.is_noise_alone();
     }
     [[nodiscard]] bool is_seen_here() const override { return watch_.is_seen_here(); }
     [[nodiscard]] bool stands_out() const override { return watch_.is_sure(); }
@@ -79,7 +80,7 @@ class KalmanEstimator : public Estimator {
 
     /// Lookups are good for so much more than is asked of them.
     static constexpr double lay_out_spare_px = 1;
-    static constexpr double most_pose_sigma_px = 1.2;
+    static constexpr double usual_pose_sigma_px = 1.2;
 
     /// Components of a twist of which a UsualWay tells: x, y and the angle, where that is one.
     static constexpr int usual_components = kind == TransformKind::full_affine ? 2 : 3;

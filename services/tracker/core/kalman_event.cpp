@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every event asks of the filter: how near it is, and what it tells.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -238,7 +239,7 @@ bool KalmanEstimator<kind>::take(double weight) {
     // Before the correction, which the next event waits for: it is done while that waits for its
     // quotients, and not after them.
     learn(r, share);
-    if (watch_.is_on()) {
+    if (watch_.helps()) {
         const double doubt = (1 / share - 1) * r * r * per_variance;
         filter_.correct(measured_.row, r, per_variance, 1 - doubt);
     } else if (share > level_share && measured_.has_side && uses_levels()) {
@@ -256,7 +257,7 @@ bool KalmanEstimator<kind>::take(double weight) {
     }
     if (lead_prior_.count(measured_.lead, share) && parts_.lead_physics) tell_leads();
     most_pose_sigma_px_ =
-        most_pose_sigma_px + bound_settles * (most_pose_sigma_px_ - most_pose_sigma_px);
+        usual_pose_sigma_px + bound_settles * (most_pose_sigma_px_ - usual_pose_sigma_px);
     return true;
 }
 

@@ -10,6 +10,7 @@
 
 #include "services/tracker/core/coast.hpp"
 #include "services/tracker/core/contour.hpp"
+#include "services/tracker/core/fired_beside.hpp"
 #include "services/tracker/core/fired_counts.hpp"
 #include "services/tracker/core/pose.hpp"
 
@@ -50,6 +51,7 @@ class Lookout {
         double own_z = 0;              ///< Of where the object is thought to be.
         std::optional<Coast> instead;  ///< It is rather here, beyond chance.
         double instead_z = 0;
+        bool is_even = true;  ///< Beside the contour there is noise alone. Else nothing is instead.
     };
     /// Looks at what was seen since the last look and in the four times before it; everywhere, or
     /// where the object is thought to be alone. To be called every every_us of event time.
@@ -77,28 +79,23 @@ class Lookout {
     void fill_up(std::vector<float>& counts);
     void weigh_noise(const Pose& pose);
     void look_around(const Coast& own, const Velocity& going);
+    void look_elsewhere(const Coast& own, Sight& sight);
+    [[nodiscard]] bool is_even(const Coast& own, const Coast& place);
     [[nodiscard]] std::array<double, parts> scores_of(const Coast& coast) const;
     [[nodiscard]] double z_of(const Coast& coast) const;
     [[nodiscard]] bool is_all_around(const Coast& coast, double z) const;
     [[nodiscard]] Coast uphill(const Coast& coast, double& z) const;
     [[nodiscard]] Coast best_of_around(const Coast& own, const Velocity& going) const;
 
-    /// Where events came from, image px.
-    struct Box {
-        int left = 1 << 20;
-        int right = -1;
-        int top = 1 << 20;
-        int bottom = -1;
-    };
-
     std::vector<Eigen::Vector2d> samples_;  // model frame, evenly along the contour
     Eigen::Vector2d middle_px_{0, 0};       // of them
     double turn_rad_ = 0;                   // of a step
     FiredCounts fresh_;                     // since the last look
-    Box seen_;
+    FiredBox seen_;                         // image px
     int half_px_ = 0;
     std::array<std::vector<float>, slices> slices_;  // about each pixel; the newest first
     std::vector<float> work_;
+    FiredBeside beside_;
     std::vector<float> scores_;  // [turn][y][x]
     double mean_ = 0;            // of a score in noise alone
     double sigma_ = 1;

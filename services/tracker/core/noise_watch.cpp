@@ -6,12 +6,13 @@
 namespace pursuit::tracker {
 namespace {
 
-// A pixel. Where there is less, the estimator does as well alone, and better beside what hides the
-// object (of what is held it is not told how much should come), …
-constexpr double strong_hz = 12;
-// … but not until the object has shown where it is, nor when it has lost it. (What is less than
-// this carries nothing off.) When it went well for so long without the watch, it has shown.
-constexpr double strong_for_unseen_hz = 3.5;
+// A pixel. What is less carries nothing off.
+constexpr double strong_hz = 3.5;
+// Beside another object the estimator does better alone in less than this (of what is held it is
+// not told how much should come, nor therefore what hides it), but not until the object has shown
+// where it is, nor when it has lost it. When it went well for so long without the watch, it has
+// shown.
+constexpr double strong_beside_another_hz = 12;
 constexpr std::int64_t seen_without_us = 500'000;
 // Not so steady any more it is still the noise that it was, within these; an object that comes out
 // of it makes it uneven.
@@ -45,7 +46,7 @@ constexpr double plain_share = 0.5;
 
 void NoiseWatch::restart(const Pose& pose, const Velocity& velocity) {
     start_ = held_ = {0, pose, velocity};
-    is_on_ = is_sighted_ = is_confirmed_ = is_seen_here_ = false;
+    is_on_ = is_left_alone_ = is_uneven_ = is_sighted_ = is_confirmed_ = is_seen_here_ = false;
     looks_ = plain_looks_ = sighted_looks_ = 0;
     is_creeping_ = has_shown_ = false;
     creeping_looks_ = 0;
@@ -63,7 +64,7 @@ void NoiseWatch::tell_noise(const Clutter& clutter, double visible_share) {
     const double hz = clutter.noise_hz();
     if (clutter.is_steady()) {
         has_shown_ &= !clutter.is_noise_alone();
-        is_on_ = hz > (has_shown_ ? strong_hz : strong_for_unseen_hz);
+        is_on_ = hz > (has_shown_ && is_beside_another_ ? strong_beside_another_hz : strong_hz);
         noise_hz_ = hz;
     } else if (is_on_) {
         is_on_ = hz > least_of_noise * noise_hz_ && hz < most_of_noise * noise_hz_;
@@ -89,6 +90,7 @@ std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter,
         return held_.at(own.t_us, longest_s);
     }
     if (!was_on) {
+        is_left_alone_ = is_uneven_ = false;
         is_seen_here_ = false;
         lookout_.restart();
         slow_.restart();
@@ -109,10 +111,14 @@ std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter,
     const bool everywhere = plain_looks_ == 0 || looks_ % looks_everywhere == 0;
     const Lookout::Sight sight = lookout_.look(own, gyration_px, extent_px, everywhere);
     const double own_z = sight.own_z;
-    is_seen_here_ = own_z > still_here_z && !sight.instead;
-    plain_looks_ = own_z > plain_z && !sight.instead ? plain_looks_ + 1 : 0;
+    // Where other things make events, what stands out tells nothing.
+    is_uneven_ = !sight.is_even;
+    const bool nothing_better = sight.is_even && !sight.instead;
+    is_seen_here_ = own_z > still_here_z && nothing_better;
+    plain_looks_ = own_z > plain_z && nothing_better ? plain_looks_ + 1 : 0;
     if (++looks_ < first_looks) return std::nullopt;
-    if (clutter.own_share() > plain_share) {
+    is_left_alone_ = is_uneven_ || clutter.own_share() > plain_share;
+    if (is_left_alone_) {
         is_sighted_ = is_confirmed_ = true;
         is_creeping_ = false;
         return std::nullopt;

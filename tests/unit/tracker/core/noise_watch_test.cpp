@@ -130,6 +130,35 @@ TEST_F(LookingOut, sees_nothing_where_there_is_noise_alone) {
     EXPECT_LE(times_elsewhere_, 1);
 }
 
+TEST_F(LookingOut, sees_that_there_is_noise_alone_beside_an_object_or_that_there_is_not) {
+    const auto truth = [](double t_us) { return pose_of(150 + 100e-6 * t_us, 120, 0.3); };
+    auto events =
+        outline_events(shape_, truth, 0, 24'500, moving_per_ms, noise_per_ms(8), small_sensor, 4);
+    EXPECT_TRUE(look_at(events, truth(24'000)).is_even);
+    // Also where the object is rather elsewhere.
+    Pose beside = truth(24'000);
+    beside.t_px += Eigen::Vector2d(3, -4);
+    lookout_.restart();
+    const Lookout::Sight sight = look_at(events, beside);
+    EXPECT_TRUE(sight.is_even);
+    EXPECT_TRUE(sight.instead);
+
+    // Windows that pass as a camera shakes; one of them is as long as the arrow.
+    const Shape window = test::polygon("window", {{-30, -6}, {30, -6}, {30, 6}, {-30, 6}});
+    const auto passing = [](double t_us) { return pose_of(148, 141 - 60e-6 * t_us, 0.25); };
+    const auto of_window =
+        outline_events(window, passing, 0, 24'500, moving_per_ms, 0, small_sensor, 5);
+    events.insert(events.end(), of_window.begin(), of_window.end());
+    std::stable_sort(events.begin(), events.end(),
+                     [](const Event& l, const Event& r) { return l.t_us < r.t_us; });
+    for (const Pose& own : {truth(24'000), beside}) {
+        lookout_.restart();
+        const Lookout::Sight among_others = look_at(events, own);
+        EXPECT_FALSE(among_others.is_even);
+        EXPECT_FALSE(among_others.instead);
+    }
+}
+
 TEST_F(LookingOut, sees_nothing_of_what_is_another_objects) {
     const auto truth = [](double t_us) { return pose_of(150 + 60e-6 * t_us, 120, 0.3); };
     const auto events = outline_events(shape_, truth, 0, 24'500, moving_per_ms, 0, small_sensor, 4);

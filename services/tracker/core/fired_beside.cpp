@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "services/tracker/core/fired_beside.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace pursuit::tracker {
+namespace {
+
+constexpr float left_out = -1;
+
+// Of the variance of a count what is left when it is spread: (1² + 2² + 1²)² / 16².
+constexpr double spread_variance = 36.0 / 256;
+
+// Fewer pixels tell nothing.
+constexpr double least_pixels = 64;
+
+}  // namespace
+
+void FiredBeside::begin(unsigned side) {
+    side_ = static_cast<int>(side);
+    counts_.assign(std::size_t{side} * side, 0);
+}
+
+void FiredBeside::add(std::span<const float> counts) {
+    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += counts[i];
+}
+
+void FiredBeside::leave_out(const Eigen::Vector2d& place_px) {
+    const auto column = static_cast<int>(std::lround(place_px.x()));
+    const auto row = static_cast<int>(std::lround(place_px.y()));
+    const int left = std::max(column - near_px, 0);
+    const int right = std::min(column + near_px + 1, side_);
+    for (int y = std::max(row - near_px, 0); y < std::min(row + near_px + 1, side_); ++y) {
+        for (int x = left; x < right; ++x)
+            counts_[static_cast<std::size_t>(y * side_ + x)] = left_out;
+    }
+}
+
+double FiredBeside::unevenness(const Eigen::Vector2d& middle_px, double radius_px,
+                               const FiredBox& seen) const {
+    double pixels = 0;
+    double sum = 0;
+    double squares = 0;
+    for (int row = 0; row < side_; ++row) {
+        for (int column = 0; column < side_; ++column) {
+            const double fired = counts_[static_cast<std::size_t>(row * side_ + column)];
+            const Eigen::Vector2d off_px = Eigen::Vector2d(column, row) - middle_px;
+            if (fired < 0 || !seen.is_inside(column, row) ||
+                off_px.squaredNorm() > radius_px * radius_px) {
+                continue;
+            }
+            ++pixels;
+            sum += fired;
+            squares += fired * fired;
+        }
+    }
+    if (pixels < least_pixels || !(sum > 0)) return 1;
+    return (squares - sum * sum / pixels) / (spread_variance * sum);
+}
+
+}  // namespace pursuit::tracker
