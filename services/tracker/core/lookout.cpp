@@ -14,7 +14,6 @@ namespace pursuit::tracker {
 namespace {
 
 constexpr double most_samples = 64;
-constexpr int margin_px = 8;  // that the object moves before the window follows
 constexpr double slow_px_s = 30;
 constexpr double longest_s = 1;
 
@@ -58,98 +57,16 @@ Lookout::Lookout(const Contour& contour) : scores_(turns * places * places) {
     if (!samples_.empty()) middle_px_ /= static_cast<double>(samples_.size());
 }
 
-void Lookout::place(const Eigen::Vector2d& center_px, double extent_px) {
-    const int half = static_cast<int>(std::ceil(extent_px)) + reach_px + 2 * margin_px;
-    const int left = static_cast<int>(std::lround(center_px.x())) - half;
-    const int top = static_cast<int>(std::lround(center_px.y())) - half;
-    const auto side = static_cast<unsigned>(2 * half + 1);
-    if (side == fresh_.side && std::abs(left - fresh_.left) <= margin_px &&
-        std::abs(top - fresh_.top) <= margin_px) {
-        return;
-    }
-    for (std::vector<float>& counts : slices_) {
-        std::vector<float> moved(std::size_t{side} * side);
-        for (unsigned row = 0; row < side; ++row) {
-            const auto old_row = static_cast<unsigned>(static_cast<int>(row) + top - fresh_.top);
-            if (old_row >= fresh_.side) continue;
-            for (unsigned column = 0; column < side; ++column) {
-                const auto old =
-                    static_cast<unsigned>(static_cast<int>(column) + left - fresh_.left);
-                if (old < fresh_.side)
-                    moved[row * side + column] = counts[old_row * fresh_.side + old];
-            }
-        }
-        counts = std::move(moved);
-    }
-    fresh_.left = left;
-    fresh_.top = top;
-    fresh_.side = side;
-    half_px_ = half;
-    fresh_.events.assign(slices_[0].size(), {});
-    work_.assign(slices_[0].size(), 0);
-}
-
-void Lookout::close_slice() {
-    if (fresh_.side == 0) return;
-    std::rotate(slices_.begin(), slices_.end() - 1, slices_.end());
-    // By 1 2 1 across and down: as far as events stray.
-    const auto fired = [&](std::size_t i) { return fresh_.events[i][0] + fresh_.events[i][1]; };
-    const std::size_t size = fresh_.events.size();
-    for (std::size_t i = 1; i + 1 < size; ++i) {
-        work_[i] = static_cast<float>(fired(i - 1) + 2 * fired(i) + fired(i + 1));
-    }
-    std::vector<float>& counts = slices_[0];
-    for (std::size_t i = fresh_.side; i + fresh_.side < size; ++i) {
-        counts[i] = (work_[i - fresh_.side] + 2 * work_[i] + work_[i + fresh_.side]) / 16;
-    }
-    fill_up(counts);
-    fresh_.clear();
-}
-
-// No events come from where they are not asked for, and from beyond the image: as many as elsewhere
-// would be, lest places that reach there seem emptier than others.
-void Lookout::fill_up(std::vector<float>& counts) {
-    const auto side = static_cast<int>(fresh_.side);
-    for (int row = 0; row < side; ++row) {
-        for (int column = 0; column < side; ++column) {
-            const auto& fired = fresh_.events[static_cast<std::size_t>(row * side + column)];
-            if (fired[0] + fired[1] == 0) continue;
-            seen_.include(fresh_.left + column, fresh_.top + row);
-        }
-    }
-    // About the middle all of them were asked for.
-    const auto about = static_cast<int>((half_px_ - 2 * margin_px) / std::numbers::sqrt2);
-    const int middle = side / 2;
-    double sum = 0;
-    double pixels = 0;
-    const auto is_seen = [&](int row, int column) {
-        return seen_.is_inside(fresh_.left + column, fresh_.top + row);
-    };
-    for (int row = middle - about; row <= middle + about; ++row) {
-        for (int column = middle - about; column <= middle + about; ++column) {
-            if (!is_seen(row, column)) continue;
-            sum += counts[row * side + column];
-            ++pixels;
-        }
-    }
-    const auto usual = static_cast<float>(pixels > 0 ? sum / pixels : 0);
-    for (int row = 0; row < side; ++row) {
-        for (int column = 0; column < side; ++column) {
-            if (!is_seen(row, column)) counts[row * side + column] = usual;
-        }
-    }
-}
-
 // Every place, as it goes so: the slices are laid over each other, and the contour over them.
 void Lookout::look_around(const Coast& own, const Velocity& going) {
     std::fill(work_.begin(), work_.end(), 0.F);
-    const auto side = static_cast<int>(fresh_.side);
-    for (std::size_t i = 0; i < slices; ++i) {
+    const auto side = static_cast<int>(window_.side());
+    for (std::size_t i = 0; i < FiredWindow::slices; ++i) {
         const double age_s = static_cast<double>(age_us(i)) * 1e-6;
         const auto dx = static_cast<int>(std::lround(age_s * going.vx_px_s));
         const auto dy = static_cast<int>(std::lround(age_s * going.vy_px_s));
         for (int row = std::max(dy, 0); row < side + std::min(dy, 0); ++row) {
-            const float* from = slices_[i].data() + (row - dy) * side;
+            const float* from = window_.slice(i).data() + (row - dy) * side;
             float* to = work_.data() + row * side;
             for (int x = std::max(dx, 0); x < side + std::min(dx, 0); ++x) to[x] += from[x - dx];
         }
@@ -161,8 +78,8 @@ void Lookout::look_around(const Coast& own, const Velocity& going) {
         float* scores = &scores_[turn * places * places];
         for (const Eigen::Vector2d& sample : samples_) {
             const Eigen::Vector2d p = own.pose.t_px + a * sample;
-            const auto column = static_cast<int>(std::lround(p.x())) - fresh_.left - reach_px;
-            const auto row = static_cast<int>(std::lround(p.y())) - fresh_.top - reach_px;
+            const auto column = static_cast<int>(std::lround(p.x())) - window_.left() - reach_px;
+            const auto row = static_cast<int>(std::lround(p.y())) - window_.top() - reach_px;
             if (column < 0 || row < 0 || column + 2 * reach_px >= side ||
                 row + 2 * reach_px >= side) {
                 continue;
@@ -170,7 +87,7 @@ void Lookout::look_around(const Coast& own, const Velocity& going) {
             const float* counts = work_.data() + row * side + column;
             for (std::size_t y = 0; y < places; ++y) {
                 for (std::size_t x = 0; x < places; ++x) {
-                    scores[y * places + x] += counts[y * fresh_.side + x];
+                    scores[y * places + x] += counts[y * window_.side() + x];
                 }
             }
         }
@@ -182,13 +99,13 @@ void Lookout::weigh_noise(const Pose& pose) {
     std::fill(work_.begin(), work_.end(), 0.F);
     for (const Eigen::Vector2d& sample : samples_) {
         const Eigen::Vector2d p = pose.t_px + pose.a * sample;
-        const auto column = static_cast<unsigned>(std::lround(p.x()) - fresh_.left - 1);
-        const auto row = static_cast<unsigned>(std::lround(p.y()) - fresh_.top - 1);
-        if (column >= fresh_.side - 2 || row >= fresh_.side - 2) continue;
+        const auto column = static_cast<unsigned>(std::lround(p.x()) - window_.left() - 1);
+        const auto row = static_cast<unsigned>(std::lround(p.y()) - window_.top() - 1);
+        if (column >= window_.side() - 2 || row >= window_.side() - 2) continue;
         constexpr std::array<float, 3> spread{0.25F, 0.5F, 0.25F};
         for (unsigned y = 0; y < 3; ++y) {
             for (unsigned x = 0; x < 3; ++x) {
-                work_[(row + y) * fresh_.side + column + x] += spread[x] * spread[y];
+                work_[(row + y) * window_.side() + column + x] += spread[x] * spread[y];
             }
         }
     }
@@ -201,22 +118,23 @@ void Lookout::weigh_noise(const Pose& pose) {
 
 auto Lookout::scores_of(const Coast& coast) const -> std::array<double, parts> {
     std::array<double, parts> scores{};
-    for (std::size_t i = 0; i < slices; ++i) {
+    for (std::size_t i = 0; i < FiredWindow::slices; ++i) {
         const Pose pose = coast.at(coast.t_us - age_us(i), longest_s).pose;
-        const double left = pose.t_px.x() - fresh_.left;
-        const double top = pose.t_px.y() - fresh_.top;
+        const double left = pose.t_px.x() - window_.left();
+        const double top = pose.t_px.y() - window_.top();
         for (std::size_t k = 0; k < samples_.size(); ++k) {
             const Eigen::Vector2d& m = samples_[k];
             const double x = left + pose.a(0, 0) * m.x() + pose.a(0, 1) * m.y();
             const double y = top + pose.a(1, 0) * m.x() + pose.a(1, 1) * m.y();
-            if (!(x >= 0 && y >= 0 && x < fresh_.side - 1 && y < fresh_.side - 1)) continue;
+            if (!(x >= 0 && y >= 0 && x < window_.side() - 1 && y < window_.side() - 1)) continue;
             const auto column = static_cast<unsigned>(x);
             const auto row = static_cast<unsigned>(y);
             const auto right = static_cast<float>(x - column);
             const auto down = static_cast<float>(y - row);
-            const float* at = slices_[i].data() + row * fresh_.side + column;
+            const float* at = window_.slice(i).data() + row * window_.side() + column;
             const float upper = at[0] + right * (at[1] - at[0]);
-            const float lower = at[fresh_.side] + right * (at[fresh_.side + 1] - at[fresh_.side]);
+            const float lower =
+                at[window_.side()] + right * (at[window_.side() + 1] - at[window_.side()]);
             scores[k * parts / samples_.size()] += upper + down * (lower - upper);
         }
     }
@@ -278,11 +196,11 @@ Coast Lookout::best_of_around(const Coast& own, const Velocity& going) const {
 
 // Beside both places, lest the object's own edges count where it is rather there.
 bool Lookout::is_even(const Coast& own, const Coast& place) {
-    const Eigen::Vector2d corner_px(fresh_.left, fresh_.top);
-    beside_.begin(fresh_.side);
-    for (const std::vector<float>& counts : slices_) beside_.add(counts);
+    const Eigen::Vector2d corner_px(window_.left(), window_.top());
+    beside_.begin(window_.side());
+    for (std::size_t i = 0; i < FiredWindow::slices; ++i) beside_.add(window_.slice(i));
     for (const Coast& coast : {own, place}) {
-        for (std::size_t i = 0; i < slices; ++i) {
+        for (std::size_t i = 0; i < FiredWindow::slices; ++i) {
             const Pose pose = coast.at(coast.t_us - age_us(i), longest_s).pose;
             for (const Eigen::Vector2d& sample : samples_) {
                 beside_.leave_out(pose.t_px + pose.a * sample - corner_px);
@@ -290,9 +208,9 @@ bool Lookout::is_even(const Coast& own, const Coast& place) {
         }
     }
     // Farther away not every event was asked for.
-    const double asked_px = half_px_ - 2 * margin_px - FiredBeside::near_px;
+    const double asked_px = window_.reach_px() - FiredBeside::near_px;
     return beside_.unevenness(own.pose.t_px - corner_px, asked_px,
-                              seen_.from(fresh_.left, fresh_.top)) < most_uneven;
+                              window_.seen().from(window_.left(), window_.top())) < most_uneven;
 }
 
 void Lookout::look_elsewhere(const Coast& own, Sight& sight) {
@@ -319,8 +237,9 @@ void Lookout::look_elsewhere(const Coast& own, Sight& sight) {
 auto Lookout::look(const Coast& own, double gyration_px, double extent_px, bool everywhere)
     -> Sight {
     turn_rad_ = 1 / std::max(gyration_px, 1.0);
-    close_slice();
-    place(own.pose.t_px, extent_px);
+    window_.close_slice();
+    window_.place(own.pose.t_px, static_cast<int>(std::ceil(extent_px)) + reach_px);
+    work_.resize(window_.slice(0).size());
     Sight sight;
     if (samples_.empty()) return sight;
     if (everywhere) {

@@ -12,6 +12,7 @@
 #include "services/tracker/core/contour.hpp"
 #include "services/tracker/core/fired_beside.hpp"
 #include "services/tracker/core/fired_counts.hpp"
+#include "services/tracker/core/fired_window.hpp"
 #include "services/tracker/core/pose.hpp"
 
 namespace pursuit::tracker {
@@ -30,21 +31,18 @@ class Lookout {
     explicit Lookout(const Contour& contour);
 
     /// Nothing was seen yet.
-    void restart() {
-        fresh_.side = 0;
-        seen_ = {};
-    }
+    void restart() { window_.restart(); }
 
     /// An event about the object.
     void see(std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
-        fresh_.see(x, y, polarity);
+        window_.see(x, y, polarity);
     }
     /// It is another object's.
     void disown(std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
-        fresh_.forget(x, y, polarity);
+        window_.forget(x, y, polarity);
     }
     /// What was seen since the last look.
-    [[nodiscard]] const FiredCounts& fresh() const { return fresh_; }
+    [[nodiscard]] const FiredCounts& fresh() const { return window_.fresh(); }
 
     /// What a look shows.
     struct Sight {
@@ -69,14 +67,10 @@ class Lookout {
     static constexpr double most_extent_px = 120;
 
  private:
-    static constexpr std::size_t slices = 5;
     static constexpr std::size_t parts = 8;
     static constexpr std::size_t places = 2 * reach_px + 1;
     static constexpr std::size_t turns = 2 * reach_turn + 1;
 
-    void place(const Eigen::Vector2d& center_px, double extent_px);
-    void close_slice();
-    void fill_up(std::vector<float>& counts);
     void weigh_noise(const Pose& pose);
     void look_around(const Coast& own, const Velocity& going);
     void look_elsewhere(const Coast& own, Sight& sight);
@@ -90,10 +84,7 @@ class Lookout {
     std::vector<Eigen::Vector2d> samples_;  // model frame, evenly along the contour
     Eigen::Vector2d middle_px_{0, 0};       // of them
     double turn_rad_ = 0;                   // of a step
-    FiredCounts fresh_;                     // since the last look
-    FiredBox seen_;                         // image px
-    int half_px_ = 0;
-    std::array<std::vector<float>, slices> slices_;  // about each pixel; the newest first
+    FiredWindow window_;                    // a slice for each look
     std::vector<float> work_;
     FiredBeside beside_;
     std::vector<float> scores_;  // [turn][y][x]
