@@ -40,20 +40,26 @@ void FiredBeside::leave_out(const Eigen::Vector2d& place_px) {
 
 double FiredBeside::unevenness(const Eigen::Vector2d& middle_px, double radius_px,
                                const FiredBox& seen) const {
+    const auto first = [](int seen_from, double from) {
+        return std::max({0, seen_from + 1, static_cast<int>(std::ceil(from))});
+    };
+    const auto last = [&](int seen_to, double to) {
+        return std::min({side_ - 1, seen_to - 1, static_cast<int>(std::floor(to))});
+    };
     double pixels = 0;
     double sum = 0;
     double squares = 0;
-    for (int row = 0; row < side_; ++row) {
-        for (int column = 0; column < side_; ++column) {
+    const int bottom = last(seen.bottom, middle_px.y() + radius_px);
+    for (int row = first(seen.top, middle_px.y() - radius_px); row <= bottom; ++row) {
+        const double down_px = row - middle_px.y();
+        const double half_px = std::sqrt(std::max(radius_px * radius_px - down_px * down_px, 0.0));
+        const int right = last(seen.right, middle_px.x() + half_px);
+        for (int column = first(seen.left, middle_px.x() - half_px); column <= right; ++column) {
             const double fired = counts_[static_cast<std::size_t>(row * side_ + column)];
-            const Eigen::Vector2d off_px = Eigen::Vector2d(column, row) - middle_px;
-            if (fired < 0 || !seen.is_inside(column, row) ||
-                off_px.squaredNorm() > radius_px * radius_px) {
-                continue;
-            }
-            ++pixels;
-            sum += fired;
-            squares += fired * fired;
+            const double is_beside = fired < 0 ? 0 : 1;
+            pixels += is_beside;
+            sum += is_beside * fired;
+            squares += is_beside * fired * fired;
         }
     }
     if (pixels < least_pixels || !(sum > 0)) return 1;
