@@ -48,8 +48,6 @@ class Estimator {
     }
     /// How much of what the object's motion would show is not hidden, above 0 … 1.
     virtual void set_visible_share(double share) { static_cast<void>(share); }
-    /// Whether another object that is followed lies so near that it may hide this one.
-    virtual void set_beside_another(bool is_beside) { static_cast<void>(is_beside); }
     /// How it goes as a rule: what is half hidden goes on so.
     virtual void set_usual_way(const UsualWay& way) { static_cast<void>(way); }
 

@@ -38,7 +38,6 @@ class KalmanEstimator : public Estimator {
     void resume(std::int64_t t_us, const Pose& pose, const Velocity& velocity,
                 double way_px) override;
     void set_visible_share(double share) override { visible_share_ = share; }
-    void set_beside_another(bool is_beside) override { watch_.set_beside_another(is_beside); }
     void set_usual_way(const UsualWay& way) override { usual_way_ = way; }
     void set_blind_us(double blind_us) override {
         lead_prior_.set_blind_us(blind_us);

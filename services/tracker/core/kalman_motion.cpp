@@ -117,8 +117,7 @@ void KalmanEstimator<kind>::spread(double dt_s) {
         }
     }
     if (parts_.quiet_facings && quiet_.wait(dt_s))
-        quiet_.look(filter_, size_.per_gyration2,
-                    visible_share_ > 0.95 && !watch_.is_among_others());
+        quiet_.look(filter_, size_.per_gyration2, visible_share_ > 0.95 && watch_.knows_silence());
     const double speed_sigma = std::max(told_px_s, std::min(own_px_s, 3 * told_px_s)) + 30;
     for (int i = 0; i < Filter::dof; ++i) {
         filter_.limit_variance(i, most_pose_sigma_px_ * most_pose_sigma_px_ * unit2(i));

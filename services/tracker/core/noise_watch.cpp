@@ -8,11 +8,10 @@ namespace {
 
 // A pixel. What is less carries nothing off.
 constexpr double strong_hz = 3.5;
-// Beside another object the estimator does better alone in less than this (of what is held it is
-// not told how much should come, nor therefore what hides it), but not until the object has shown
-// where it is, nor when it has lost it. When it went well for so long without the watch, it has
-// shown.
-constexpr double strong_beside_another_hz = 12;
+// Once the object has shown where it is, and until it seems to be gone, the estimator does better
+// alone where there is less than this: of what is held it is not told how much should come, nor
+// therefore what hides it. When it went well for so long without the watch, it has shown.
+constexpr double strong_for_shown_hz = 12;
 constexpr std::int64_t seen_without_us = 500'000;
 // Not so steady any more it is still the noise that it was, within these; an object that comes out
 // of it makes it uneven.
@@ -46,7 +45,8 @@ constexpr double plain_share = 0.5;
 
 void NoiseWatch::restart(const Pose& pose, const Velocity& velocity) {
     start_ = held_ = {0, pose, velocity};
-    is_on_ = is_left_alone_ = is_uneven_ = is_sighted_ = is_confirmed_ = is_seen_here_ = false;
+    is_on_ = is_noisy_ = is_left_alone_ = is_uneven_ = is_sighted_ = is_confirmed_ = is_seen_here_ =
+        false;
     looks_ = plain_looks_ = sighted_looks_ = 0;
     is_creeping_ = has_shown_ = false;
     creeping_looks_ = 0;
@@ -63,8 +63,9 @@ void NoiseWatch::tell_noise(const Clutter& clutter, double visible_share) {
     }
     const double hz = clutter.noise_hz();
     if (clutter.is_steady()) {
+        is_noisy_ = hz > strong_hz;
         has_shown_ &= !clutter.is_noise_alone();
-        is_on_ = hz > (has_shown_ && is_beside_another_ ? strong_beside_another_hz : strong_hz);
+        is_on_ = hz > (has_shown_ ? strong_for_shown_hz : strong_hz);
         noise_hz_ = hz;
     } else if (is_on_) {
         is_on_ = hz > least_of_noise * noise_hz_ && hz < most_of_noise * noise_hz_;

@@ -19,9 +19,9 @@ namespace pursuit::tracker {
 ///      └── less noise ──             └────────────────────────────────────────────────┴────┘
 ///
 /// What stands out by chance is gone a few looks later, and the object is put back; what stands out
-/// plainly or goes on to stand out is confirmed. Beside another object that is followed only
-/// stronger noise counts, once it has shown. Where other things make events beside it, what looks
-/// say does not hold: it is left alone.
+/// plainly or goes on to stand out is confirmed. Until it has shown once, and when what comes seems
+/// to be noise alone, less noise counts for strong. Where other things make events beside it, what
+/// looks say does not hold: it is left alone.
 class NoiseWatch {
  public:
     NoiseWatch() = default;
@@ -35,8 +35,9 @@ class NoiseWatch {
     /// Among noise, and not left alone: where what is on the contour is plainly the object's, and
     /// where what lies beside it is no noise, the estimator needs no help.
     [[nodiscard]] bool helps() const { return is_on_ && !is_left_alone_; }
-    /// Among noise and the edges of other things.
-    [[nodiscard]] bool is_among_others() const { return is_on_ && is_uneven_; }
+    /// Whether it is known what silence means: not among noise and the edges of other things. (What
+    /// lies beside an object that is left to the estimator is not looked at.)
+    [[nodiscard]] bool knows_silence() const { return is_on_ ? !is_uneven_ : !is_noisy_; }
     /// Whether it is to be held where it is.
     [[nodiscard]] bool is_unseen() const { return is_on_ && !is_sighted_; }
     /// Whether it shows where it is thought to be, plainly or not, and nothing nearby does better.
@@ -48,9 +49,6 @@ class NoiseWatch {
     void see(const Event& event) { lookout_.see(event.x, event.y, event.polarity); }
     /// The last one is another object's: it shows nothing of this one.
     void disown(const Event& event) { lookout_.disown(event.x, event.y, event.polarity); }
-
-    /// Whether another object that is followed may hide this one, or makes events about it.
-    void set_beside_another(bool is_beside) { is_beside_another_ = is_beside; }
 
     [[nodiscard]] bool is_due(std::int64_t t_us) const { return t_us >= due_us_; }
 
@@ -74,8 +72,8 @@ class NoiseWatch {
     SlowLookout slow_;
     Coast start_;
     Coast held_;  // where it was when it was seen last
-    bool is_beside_another_ = false;
     bool is_on_ = false;
+    bool is_noisy_ = false;  // strong steady noise, on or not
     bool is_left_alone_ = false;
     bool is_uneven_ = false;  // what fires beside it
     bool is_sighted_ = false;

@@ -131,7 +131,7 @@ class Track {
     }
     /// Learns how many events the motion makes from what the outline has counted; at once, or when
     /// there is enough of it.
-    void tally(std::int64_t t_us, bool is_beside_another);
+    void tally(std::int64_t t_us, bool at_once);
     /// What the tally was over is done with.
     void end_tally(std::int64_t t_us) {
         if (tally_.t_us() == t_us) outline_.clear();

@@ -28,9 +28,8 @@ Going Track::going() const {
     return {pose().a, is_covered_ ? hidden_way_.last().velocity : estimator_->velocity()};
 }
 
-void Track::tally(std::int64_t t_us, bool is_beside_another) {
-    estimator_->set_beside_another(is_beside_another);
-    if (!is_beside_another && !tally_.is_due(t_us)) return;
+void Track::tally(std::int64_t t_us, bool at_once) {
+    if (!at_once && !tally_.is_due(t_us)) return;
     tally_.begin(t_us);
     if (is_covered_) {
         hidden_way_.go_on(t_us, tally_.over_s(), transform_);
