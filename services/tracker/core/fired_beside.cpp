@@ -13,8 +13,9 @@ constexpr float left_out = -1;
 // Of the variance of a count what is left when it is spread: (1² + 2² + 1²)² / 16².
 constexpr double spread_variance = 36.0 / 256;
 
-// Fewer pixels tell nothing.
-constexpr double least_pixels = 64;
+// Fewer pixels tell nothing: chance alone lets the ratio of so many stray by 0.12 (what is spread
+// is as a fourth of them).
+constexpr double least_pixels = 500;
 
 }  // namespace
 

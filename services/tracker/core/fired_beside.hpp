@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "services/tracker/core/fired_counts.hpp"
+#include "services/tracker/core/fired_box.hpp"
 
 namespace pursuit::tracker {
 
@@ -24,14 +24,14 @@ class FiredBeside {
     void leave_out(const Eigen::Vector2d& place_px);
 
     /// The variance of what the pixels counted over that of noise which brings as much: about 1 in
-    /// noise alone, and where nothing is left. Of the pixels within radius_px of a place that are
-    /// not beyond where events come from, both in the window.
+    /// noise alone, and where too few are left to tell. Of the pixels within radius_px of a place
+    /// that are not beyond where events come from, both in the window.
     [[nodiscard]] double unevenness(const Eigen::Vector2d& middle_px, double radius_px,
                                     const FiredBox& seen) const;
 
  private:
     int side_ = 0;
-    std::vector<float> counts_;  // left_out_ where it is of the contour
+    std::vector<float> counts_;  // < 0 where it is of the contour
 };
 
 }  // namespace pursuit::tracker

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "services/tracker/core/fired_box.hpp"
 #include "services/tracker/core/fired_counts.hpp"
 
 namespace pursuit::tracker {

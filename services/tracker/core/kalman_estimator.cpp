@@ -136,7 +136,7 @@ void KalmanEstimator<kind>::set_parameters(const ObjectParameters& parameters) {
     // What a part had learnt goes with it.
     if (!parts_.steadiness) steadiness_.restart();
     if (!parts_.measurement_noise) noise_.restart(false);
-    if (!parts_.noise_watch && watch_.is_on()) watch_.restart(filter_.pose(), velocity());
+    if (!parts_.noise_watch) watch_.restart(filter_.pose(), velocity());
     if (!parts_.offsets) offsets_.restart();
     if (!parts_.bend) bend_.restart();
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <utility>
 
 #include "services/tracker/core/climb.hpp"
 #include "services/tracker/core/contour_samples.hpp"
@@ -35,9 +34,11 @@ constexpr std::size_t best_parts = 2;
 constexpr double least_rest_z = 2;
 constexpr double least_rest_share = 0.25;
 
-// Of what fired beside it. (Noise varies by less than 0.1 more than chance, what lies beside a car
-// that a van overtakes by 0.3, and the edges that a moving camera sees by 2 to 10.)
+// Of what fired beside it, in pixels that are no farther from a place of the contour than this.
+// (Noise comes to 1.1 at most, what lies beside a car that a van overtakes to 1.3, and the edges
+// that a moving camera sees to 2 to 10.)
 constexpr double most_uneven = 1.5;
+constexpr double beside_every_px = 4;
 
 // The steps uphill; of the velocity as far as they take it in the time looked at.
 constexpr int most_rounds = 3;
@@ -53,6 +54,10 @@ Lookout::Lookout(const Contour& contour) : scores_(turns * places * places) {
     for (const ContourSample& sample : samples_along(contour, most_samples)) {
         samples_.push_back(sample.at_px);
         middle_px_ += sample.at_px;
+    }
+    const double dense = std::max(most_samples, contour.length_px() / beside_every_px);
+    for (const ContourSample& sample : samples_along(contour, dense)) {
+        left_out_.push_back(sample.at_px);
     }
     if (!samples_.empty()) middle_px_ /= static_cast<double>(samples_.size());
 }
@@ -195,21 +200,25 @@ Coast Lookout::best_of_around(const Coast& own, const Velocity& going) const {
 }
 
 // Beside both places, lest the object's own edges count where it is rather there.
-bool Lookout::is_even(const Coast& own, const Coast& place) {
+bool Lookout::is_even(const Coast& own, const std::optional<Coast>& instead) {
     const Eigen::Vector2d corner_px(window_.left(), window_.top());
     beside_.begin(window_.side());
     for (std::size_t i = 0; i < FiredWindow::slices; ++i) beside_.add(window_.slice(i));
-    for (const Coast& coast : {own, place}) {
+    const auto leave_out = [&](const Coast& coast) {
         for (std::size_t i = 0; i < FiredWindow::slices; ++i) {
             const Pose pose = coast.at(coast.t_us - age_us(i), longest_s).pose;
-            for (const Eigen::Vector2d& sample : samples_) {
-                beside_.leave_out(pose.t_px + pose.a * sample - corner_px);
+            for (const Eigen::Vector2d& place : left_out_) {
+                beside_.leave_out(pose.t_px + pose.a * place - corner_px);
             }
         }
-    }
-    // Farther away not every event was asked for.
-    const double asked_px = window_.reach_px() - FiredBeside::near_px;
-    return beside_.unevenness(own.pose.t_px - corner_px, asked_px,
+    };
+    leave_out(own);
+    if (instead) leave_out(*instead);
+    // Farther away not every event was asked for, nor where it was not yet.
+    const double way_px = std::hypot(own.velocity.vx_px_s, own.velocity.vy_px_s) * 1e-6 *
+                          static_cast<double>(age_us(FiredWindow::slices));
+    const double asked_px = window_.reach_px() - FiredBeside::near_px - way_px;
+    return beside_.unevenness(own.pose.t_px - corner_px, std::max(asked_px, 0.0),
                               window_.seen().from(window_.left(), window_.top())) < most_uneven;
 }
 
@@ -248,7 +257,7 @@ auto Lookout::look(const Coast& own, double gyration_px, double extent_px, bool 
     }
     sight.own_z = z_of(own);
     if (everywhere) look_elsewhere(own, sight);
-    sight.is_even = is_even(own, sight.instead.value_or(own));
+    sight.is_even = is_even(own, sight.instead);
     if (!sight.is_even) sight.instead.reset();
     return sight;
 }

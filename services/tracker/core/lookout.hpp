@@ -74,17 +74,18 @@ class Lookout {
     void weigh_noise(const Pose& pose);
     void look_around(const Coast& own, const Velocity& going);
     void look_elsewhere(const Coast& own, Sight& sight);
-    [[nodiscard]] bool is_even(const Coast& own, const Coast& place);
+    [[nodiscard]] bool is_even(const Coast& own, const std::optional<Coast>& instead);
     [[nodiscard]] std::array<double, parts> scores_of(const Coast& coast) const;
     [[nodiscard]] double z_of(const Coast& coast) const;
     [[nodiscard]] bool is_all_around(const Coast& coast, double z) const;
     [[nodiscard]] Coast uphill(const Coast& coast, double& z) const;
     [[nodiscard]] Coast best_of_around(const Coast& own, const Velocity& going) const;
 
-    std::vector<Eigen::Vector2d> samples_;  // model frame, evenly along the contour
-    Eigen::Vector2d middle_px_{0, 0};       // of them
-    double turn_rad_ = 0;                   // of a step
-    FiredWindow window_;                    // a slice for each look
+    std::vector<Eigen::Vector2d> left_out_;  // so near to each other that nothing is in between
+    std::vector<Eigen::Vector2d> samples_;   // model frame, evenly along the contour
+    Eigen::Vector2d middle_px_{0, 0};        // of them
+    double turn_rad_ = 0;                    // of a step
+    FiredWindow window_;                     // a slice for each look
     std::vector<float> work_;
     FiredBeside beside_;
     std::vector<float> scores_;  // [turn][y][x]

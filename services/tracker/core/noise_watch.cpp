@@ -26,7 +26,6 @@ constexpr double least_visible_share = 0.3;
 constexpr std::int64_t start_us = 30'000;
 constexpr double own_share_at_start = 0.35;
 
-constexpr int first_looks = 2;
 constexpr int looks_everywhere = 4;  // where it is plain: by turns
 constexpr double here_z = 4.5;
 constexpr double still_here_z = 2.5;
@@ -55,15 +54,16 @@ void NoiseWatch::restart(const Pose& pose, const Velocity& velocity) {
 }
 
 void NoiseWatch::tell_noise(const Clutter& clutter, double visible_share) {
+    // Not so steady any more it is still the noise that it was, as far as there is so much.
+    const double hz = clutter.noise_hz();
+    is_noisy_ = clutter.is_steady() ? hz > strong_hz : is_noisy_ && hz > least_of_noise * strong_hz;
     is_on_ &= clutter.can_be_noise(noise_hz_);
     // Beside what hides it in part it is not the noise that is counted: then what was known holds.
     if (visible_share < unhidden_share) {
         is_on_ &= visible_share > least_visible_share;
         return;
     }
-    const double hz = clutter.noise_hz();
     if (clutter.is_steady()) {
-        is_noisy_ = hz > strong_hz;
         has_shown_ &= !clutter.is_noise_alone();
         is_on_ = hz > (has_shown_ ? strong_for_shown_hz : strong_hz);
         noise_hz_ = hz;
@@ -78,6 +78,7 @@ std::optional<Coast> NoiseWatch::look(const Coast& own, const Clutter& clutter,
     if (own.t_us > due_us_ + Lookout::every_us) {
         lookout_.restart();
         slow_.restart();
+        is_noisy_ = is_left_alone_ = is_uneven_ = false;
         looks_ = plain_looks_ = sighted_looks_ = 0;
     }
     due_us_ = own.t_us + Lookout::every_us;

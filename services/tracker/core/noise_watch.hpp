@@ -35,9 +35,11 @@ class NoiseWatch {
     /// Among noise, and not left alone: where what is on the contour is plainly the object's, and
     /// where what lies beside it is no noise, the estimator needs no help.
     [[nodiscard]] bool helps() const { return is_on_ && !is_left_alone_; }
-    /// Whether it is known what silence means: not among noise and the edges of other things. (What
-    /// lies beside an object that is left to the estimator is not looked at.)
-    [[nodiscard]] bool knows_silence() const { return is_on_ ? !is_uneven_ : !is_noisy_; }
+    /// Whether it is known what silence means: not among the edges of other things in noise, nor in
+    /// noise while nobody looks what lies beside the object.
+    [[nodiscard]] bool knows_silence() const {
+        return is_on_ ? looks_ >= first_looks && !is_uneven_ : !is_noisy_;
+    }
     /// Whether it is to be held where it is.
     [[nodiscard]] bool is_unseen() const { return is_on_ && !is_sighted_; }
     /// Whether it shows where it is thought to be, plainly or not, and nothing nearby does better.
@@ -58,6 +60,7 @@ class NoiseWatch {
                               double gyration_px, double extent_px);
 
  private:
+    static constexpr int first_looks = 2;  // before they tell anything
     static constexpr int sure_looks = 12;
 
     void hold(const Coast& where) {

@@ -85,12 +85,22 @@ TEST_F(Beside, where_nothing_fired_or_nothing_is_left_it_is_even) {
 
 TEST_F(Beside, what_is_left_out_may_reach_beyond_the_window) {
     fire_everywhere(0.1);
-    beside_.add(counts_);
-    for (const double far_px : {-1e6, -2.0, 102.0, 1e6}) {
-        beside_.leave_out({far_px, 50});
-        beside_.leave_out({50, far_px});
+    for (int row = 10; row < 90; ++row) {
+        for (const int column : {2, 98}) fire(column, row, 3);
     }
-    EXPECT_NEAR(beside_.unevenness(middle_px, 45, whole), 1, 0.15);
+    beside_.add(counts_);
+    for (const double far_px : {-1e6, -5.0, 105.0, 1e6}) {
+        for (int at = 0; at < int{side}; ++at) {
+            beside_.leave_out({far_px, at});
+            beside_.leave_out({at, far_px});
+        }
+    }
+    EXPECT_GT(beside_.unevenness(middle_px, all_px, whole), 2) << "nothing in it is left out";
+    for (int row = 0; row < int{side}; ++row) {
+        beside_.leave_out({1, row});
+        beside_.leave_out({99, row});
+    }
+    EXPECT_NEAR(beside_.unevenness(middle_px, 60, whole), 1, 0.15);
 }
 
 }  // namespace

@@ -159,6 +159,34 @@ TEST_F(LookingOut, sees_that_there_is_noise_alone_beside_an_object_or_that_there
     }
 }
 
+TEST(Lookout, takes_no_part_of_a_long_contour_for_something_else) {
+    // A comb: 22 teeth, 1300 px of contour.
+    std::vector<Eigen::Vector2d> corners_px{{-55, 20}};
+    for (int i = 0; i < 22; ++i) {
+        const double x_px = -55 + 5 * i;
+        corners_px.insert(corners_px.end(),
+                          {{x_px, -20 + 30 * (i % 2)}, {x_px + 5, -20 + 30 * (i % 2)}});
+    }
+    corners_px.emplace_back(55, 20);
+    const Shape comb = test::polygon("comb", corners_px);
+    const auto truth = [](double t_us) { return pose_of(150 + 100e-6 * t_us, 120, 0.3); };
+    Contour contour{comb};
+    Lookout lookout{contour};
+    Coast own{0, truth(0), {100, 0, 0, 0, 0}};
+    lookout.look(own, contour.gyration_px(), contour.radius_px(), true);
+    Lookout::Sight sight;
+    for (const Event& event : outline_events(comb, truth, 0, 44'500, 6 * moving_per_ms,
+                                             noise_per_ms(8), small_sensor, 3)) {
+        while (event.t_us >= own.t_us + Lookout::every_us) {
+            own = own.at(own.t_us + Lookout::every_us, 1);
+            sight = lookout.look(own, contour.gyration_px(), contour.radius_px(), true);
+        }
+        lookout.see(event.x, event.y, event.polarity);
+    }
+    EXPECT_GT(sight.own_z, 8);
+    EXPECT_TRUE(sight.is_even);
+}
+
 TEST_F(LookingOut, sees_nothing_of_what_is_another_objects) {
     const auto truth = [](double t_us) { return pose_of(150 + 60e-6 * t_us, 120, 0.3); };
     const auto events = outline_events(shape_, truth, 0, 24'500, moving_per_ms, 0, small_sensor, 4);
