@@ -6,7 +6,9 @@
 #include <numbers>
 #include <random>
 
+#include "services/tracker/core/contour_place.hpp"
 #include "services/tracker/core/lookout.hpp"
+#include "services/tracker/core/noise_watch.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
 
 namespace pursuit::tracker {
@@ -227,6 +229,70 @@ TEST_F(LookingOut, takes_no_edge_of_something_else_for_the_object) {
     auto events = outline_events(edge, passing, 0, 100'000, 60, noise_per_ms(30), small_sensor, 6);
     look_at(events, own);
     EXPECT_EQ(times_elsewhere_, 0);
+}
+
+/// What the estimator asks of a watch for an arrow that makes 20 events a ms, among noise that
+/// comes and goes.
+class Watched {
+ public:
+    Watched() {
+        contour_.fit(Eigen::Matrix2d::Identity(), Clutter::far_to_px);
+        clutter_.restart();
+        clutter_.sample(contour_, Eigen::Matrix2d::Identity());
+        watch_.restart(pose_of(150, 120, 0), {});
+    }
+    const NoiseWatch& watch() const { return watch_; }
+
+    void go_on(double noise_hz, std::int64_t for_us) {
+        constexpr double half_px = 60;
+        const double noise_per_us = noise_hz * 4 * half_px * half_px * 1e-6;
+        constexpr double own_per_us = 0.02;
+        std::exponential_distribution<double> wait_us(noise_per_us + own_per_us);
+        std::uniform_real_distribution<double> at_px(-half_px, half_px);
+        std::bernoulli_distribution is_own(own_per_us / (noise_per_us + own_per_us));
+        const double end_us = t_us_ + static_cast<double>(for_us);
+        for (; t_us_ < end_us; t_us_ += wait_us(random_)) {
+            const auto now_us = static_cast<std::int64_t>(t_us_);
+            clutter_.reach(now_us);
+            if (clutter_.asks_for_noise_of_us(now_us) > 0) clutter_.bound_noise(now_us, noise_hz);
+            if (watch_.is_due(now_us)) {
+                watch_.look({now_us, pose_of(150, 120, 0), {}}, clutter_, 1, contour_.gyration_px(),
+                            contour_.radius_px());
+            }
+            if (is_own(random_)) {
+                clutter_.count_near(0, 1);
+                continue;
+            }
+            const ContourPlace place = place_on_contour<TransformKind::isometry>(
+                contour_.pieces(), Eigen::Matrix2d::Identity(), {at_px(random_), at_px(random_)},
+                Clutter::far_to_px);
+            if (place.piece < 0) continue;
+            if (std::abs(place.r_px) > Clutter::far_from_px) {
+                clutter_.count_far(place.piece, place.r_px);
+            } else if (std::abs(place.r_px) < 4) {
+                clutter_.count_near(place.piece, 0.1);
+            }
+        }
+    }
+
+ private:
+    std::mt19937 random_{1};
+    Contour contour_{test::arrow()};
+    Clutter clutter_;
+    NoiseWatch watch_{contour_};
+    double t_us_ = 0;
+};
+
+TEST(NoiseWatch, does_not_know_what_silence_means_in_noise_that_it_does_not_look_at) {
+    Watched watched;
+    watched.go_on(0.1, 600'000);
+    EXPECT_TRUE(watched.watch().knows_silence());
+    // The object has shown by then, so that it is left to the estimator.
+    watched.go_on(8, 600'000);
+    EXPECT_FALSE(watched.watch().is_on());
+    EXPECT_FALSE(watched.watch().knows_silence());
+    watched.go_on(0.1, 600'000);
+    EXPECT_TRUE(watched.watch().knows_silence()) << "the noise is over";
 }
 
 /// The mean error, px, of an arrow among so much noise that stands at first, sets out and stops.
