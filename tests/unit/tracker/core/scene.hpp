@@ -104,6 +104,15 @@ inline Tracker that_follows_an_arrow(const Pose& start) {
     return tracker;
 }
 
+/// Of that arrow at 500 px/s, fewer where it is slower: two events for each px² that its contour
+/// covers.
+constexpr double arrow_per_ms = 170;
+
+/// Of so much noise a pixel of the small sensor.
+constexpr double noise_per_ms(double hz) {
+    return hz * small_sensor.width * small_sensor.height * 1e-3;
+}
+
 /// Events of an outline that moves: `per_ms` events a ms at places drawn evenly along the contour,
 /// each at the rounded pixel of the true outline and with the polarity of the motion across it
 /// (inside dark), and noise anywhere. A crude sensor, for tests that need an object's events alone;

@@ -10,14 +10,11 @@
 namespace pursuit::tracker {
 namespace {
 
+using test::arrow_per_ms;
+using test::noise_per_ms;
 using test::outline_events;
 using test::rms_px;
 using test::small_sensor;
-
-double noise_everywhere_per_ms(double hz) { return hz * 304 * 240 * 1e-3; }
-
-// Two events for each px² that the arrow's contour covers.
-constexpr double arrow_per_ms = 170;
 
 class LookingOutForWhatIsSlow : public testing::Test {
  protected:
@@ -40,9 +37,8 @@ class LookingOutForWhatIsSlow : public testing::Test {
         fired.events.resize(std::size_t{fired.side} * fired.side);
         SlowLookout::Sight sight;
         std::int64_t look_us = Lookout::every_us;
-        for (const Event& event :
-             outline_events(shape, truth, 0, to_us + 500, per_ms, noise_everywhere_per_ms(noise_hz),
-                            small_sensor, 3)) {
+        for (const Event& event : outline_events(shape, truth, 0, to_us + 500, per_ms,
+                                                 noise_per_ms(noise_hz), small_sensor, 3)) {
             while (event.t_us >= look_us) {
                 slow_.add(fired, own.t_px, extent_px);
                 fired.clear();
