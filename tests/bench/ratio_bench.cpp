@@ -103,10 +103,11 @@ void beside_the_scalar_reading(benchmark::State& state, int points, double rate_
     }
 }
 
-void many_beside_one(benchmark::State& state, int objects, EstimatorKind estimator, Place place) {
+void many_beside_one(benchmark::State& state, int objects, EstimatorKind estimator, Place place,
+                     double rate_hz) {
     Case one;
     one.estimator = estimator;
-    one.rate_hz = place == Place::on_contours ? rate_of_many_hz : off_contours_hz;
+    one.rate_hz = rate_hz;
     Case many = one;
     many.objects = objects;
     std::vector<Contender> all;
@@ -128,14 +129,21 @@ void add_ratios() {
             })->Unit(benchmark::kMillisecond);
         }
     }
+    struct Events {
+        Place place;
+        double rate_hz;
+        std::string name;
+    };
+    const Events used{Place::on_contours, rate_of_many_hz, "used"};
+    const Events rejected{Place::elsewhere, off_contours_hz, "rejected"};
+    const Events fast_rejected{Place::elsewhere, fast_off_contours_hz, "rejected, fast"};
     for (const EstimatorKind estimator : {EstimatorKind::gradient, EstimatorKind::kalman}) {
-        for (const Place place : {Place::on_contours, Place::elsewhere}) {
+        for (const Events& events : {used, rejected, fast_rejected}) {
             for (const int objects : {10, 100}) {
                 const std::string name = "ratio/objects:" + std::to_string(objects) + "/" +
-                                         std::string(to_string(estimator)) +
-                                         (place == Place::on_contours ? "/used" : "/rejected");
+                                         std::string(to_string(estimator)) + "/" + events.name;
                 benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
-                    many_beside_one(state, objects, estimator, place);
+                    many_beside_one(state, objects, estimator, events.place, events.rate_hz);
                 })->Unit(benchmark::kMillisecond);
             }
         }

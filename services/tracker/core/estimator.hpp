@@ -74,6 +74,10 @@ class Estimator {
 
     /// How far from the pose's place an event until t_us can be and concern the object, px.
     [[nodiscard]] virtual double reach_px(std::int64_t t_us) const = 0;
+    /// Whether a few events may move the pose by more than ReachMap has room for.
+    [[nodiscard]] virtual bool leaps() const { return false; }
+    /// Whether any event may make the reach more, or put the pose elsewhere.
+    [[nodiscard]] virtual bool is_sudden() const { return false; }
 
     /// It does not move any more, until events tell that it does.
     virtual void stand_still() {}

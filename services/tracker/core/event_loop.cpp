@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::int64_t round_us = 500;
 
-// Where a track is, is noted in the map after so many of its events; ReachMap::place() has room for
-// what they move it.
-constexpr std::uint64_t placed_every_events = 8;
-
 // What is so near to one object's contour shows nothing of another.
 constexpr double on_contour_px = 1;
 
@@ -138,6 +134,7 @@ bool EventLoop::accepts(const Event& event) {
 // What is done from time to time, before the first event at or after wake_us_.
 void EventLoop::wake(std::int64_t t_us) {
     if (tells_occlusion_ && t_us >= occlusion_.next_us()) occlusion_.look(t_us, tracks_);
+    // (What a search moves is entered in the map with the next round.)
     seeker_.work(t_us, tracks_, occlusion_);
     if (t_us >= next_round_us_) go_round(t_us);
     wake_us_ = std::min({grid_.next_us(), next_round_us_, seeker_.next_us()});
@@ -151,8 +148,9 @@ void EventLoop::wake(std::int64_t t_us) {
                                                    double weight, PoseSink& sink) {
     Track& track = tracks_[index];
     const bool is_taken = track.take(event, weight);
-    // One that lost its grip is asked about events from farther away.
-    if (!is_taken || track.events_used() % placed_every_events == 0) {
+    // One that lost its grip is asked about events from farther away. (Among many none is asked
+    // about what lies beside its circle: there even one event's leap counts.)
+    if (!is_taken || track.is_to_be_placed() || reach_map_.is_crowded()) {
         reach_map_.place(index, track.reach(next_round_us_));
     }
     if (is_taken && emits_updates_) {
@@ -185,7 +183,9 @@ void EventLoop::wake(std::int64_t t_us) {
     // or one that nobody contends with.
     const ReachMap::Concerned concerned = reach_map_.at(event.x, event.y);
     const auto some = concerned.some();
-    if (some.count == 0) {
+    // (Both at once: by an event's place nobody could foresee two branches.)
+    if ((some.count == 0) |
+        ((some.count == 1) & !reach_map_.reaches(some.sole, event.x, event.y))) {
         ++counters_.events_unused;
         return;
     }
@@ -198,7 +198,12 @@ void EventLoop::wake(std::int64_t t_us) {
     arbiter_.begin();
     double nearest2_px2 = on_contour_px * on_contour_px;
     std::size_t nearest = tracks_.size();
-    concerned.for_each([&](std::size_t i) {
+    const auto for_each_reached = [&](const auto& ask) {
+        concerned.for_each([&](std::size_t i) {
+            if (reach_map_.reaches(i, event.x, event.y)) ask(i);
+        });
+    };
+    for_each_reached([&](std::size_t i) {
         if (const Approach* const near = approach(event, i, past)) {
             arbiter_.claim(i, tracks_[i].object_id(), near->distance_px(), near->clutter);
             if (near->contour2_px2 < nearest2_px2 && tracks_[i].is_followed()) {
@@ -213,7 +218,7 @@ void EventLoop::wake(std::int64_t t_us) {
     }
     // What lies on the contour of one shows nothing of the others.
     if (nearest < tracks_.size()) {
-        concerned.for_each([&](std::size_t i) {
+        for_each_reached([&](std::size_t i) {
             if (i != nearest) tracks_[i].disown(event);
         });
     }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "services/tracker/core/reach_map.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
@@ -111,6 +113,13 @@ template <class Metric>
 template <TransformKind kind>
 double GradientEstimator<kind>::reach_px(std::int64_t) const {
     return extent_px_ + parameters_.gate_px;
+}
+
+// An event moves it by twice the gain of how far off it is.
+template <TransformKind kind>
+bool GradientEstimator<kind>::leaps() const {
+    const double step_px = 2 * gains_.position * parameters_.gate_px;
+    return ReachMap::placed_every_events * step_px > ReachMap::reserve_px;
 }
 
 // As of events scattered by a pixel.

@@ -26,6 +26,7 @@ class GradientEstimator : public Estimator {
     [[nodiscard]] double likelihood() const override;
     bool take(double weight) override;
     [[nodiscard]] double reach_px(std::int64_t t_us) const override;
+    [[nodiscard]] bool leaps() const override;
     [[nodiscard]] const Pose& pose() const override { return pose_; }
     [[nodiscard]] Velocity velocity() const override;
     void describe(std::int64_t t_us, PoseRecord& record) const override;

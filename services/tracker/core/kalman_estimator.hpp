@@ -50,6 +50,9 @@ class KalmanEstimator : public Estimator {
     }
     bool take(double weight) override;
     [[nodiscard]] double reach_px(std::int64_t t_us) const override;
+    [[nodiscard]] bool is_sudden() const override {
+        return watch_.is_on() || clutter_.noise_hz() > NoiseWatch::strong_hz / 2;
+    }
     void stand_still() override {
         if (!watch_.is_on()) filter_.slow_down(0);
     }

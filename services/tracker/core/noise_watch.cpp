@@ -6,8 +6,6 @@
 namespace pursuit::tracker {
 namespace {
 
-// A pixel. What is less carries nothing off.
-constexpr double strong_hz = 3.5;
 // Once the object has shown where it is, and until it seems to be gone, the estimator does better
 // alone where there is less than this: of what is held it is not told how much should come, nor
 // therefore what hides it. When it went well for so long without the watch, it has shown.

@@ -59,6 +59,9 @@ class NoiseWatch {
     std::optional<Coast> look(const Coast& own, const Clutter& clutter, double visible_share,
                               double gyration_px, double extent_px);
 
+    /// A pixel. What is less carries nothing off.
+    static constexpr double strong_hz = 3.5;
+
  private:
     static constexpr int first_looks = 2;  // before they tell anything
     static constexpr int sure_looks = 12;

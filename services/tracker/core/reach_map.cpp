@@ -11,8 +11,10 @@ void ReachMap::restart(Geometry geometry, std::size_t objects) {
     columns_ = cells(geometry.width);
     rows_ = cells(geometry.height);
     words_ = (std::clamp(objects, std::size_t{1}, most_objects) + 63) / 64;
+    is_crowded_ = objects > few_objects;
     bits_.assign(columns_ * rows_ * words_, 0);
     placed_.assign(objects, Reach{});
+    told_.assign(words_ * 64, Told{});
 }
 
 void ReachMap::enter(std::size_t index, const Reach& reach) {

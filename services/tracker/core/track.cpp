@@ -244,8 +244,14 @@ void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
 
 Reach Track::reach(std::int64_t t_us) const {
     if (is_covered_ || is_chased_ || (is_searching_ && !is_acquiring_)) return {};
-    if (is_acquiring_) return {acquisition_->pose().t_px, acquisition_->reach_px(t_us)};
-    return {estimator_->pose().t_px, estimator_->reach_px(t_us)};
+    if (is_acquiring_) return {acquisition_->pose().t_px, acquisition_->reach_px(t_us), false};
+    const Pose& pose = estimator_->pose();
+    double reach_px = estimator_->reach_px(t_us);
+    if (watches_inside_) {
+        const double scale = has_fixed_scale() ? 1 : largest_scale(pose.a);
+        reach_px = std::max(reach_px, vanishing_.reach_px() * scale);
+    }
+    return {pose.t_px, reach_px, estimator_->is_sudden()};
 }
 
 const Approach* Track::approach(const Event& event, const PixelPast& past) {
@@ -264,6 +270,7 @@ const Approach* Track::approach(const Event& event, const PixelPast& past) {
 }
 
 void Track::find_what_to_watch() {
+    leaps_ = estimator_->leaps();
     sharp2_px2_ = parameters_.gate_px * parameters_.gate_px / 16;
     // Where another covers it in part, what comes from inside may be the other's.
     watches_inside_ =

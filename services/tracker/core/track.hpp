@@ -67,6 +67,10 @@ class Track {
     void stir() { due_us_ = 0; }
     /// Where events until t_us can concern the object.
     [[nodiscard]] Reach reach(std::int64_t t_us) const;
+    /// Whether that is to be told after the event taken last.
+    [[nodiscard]] bool is_to_be_placed() const {
+        return leaps_ || events_used_ % ReachMap::placed_every_events == 0;
+    }
 
     /// How near an event is; null where it is none of the object's. take() uses the event that
     /// approach() was asked for last.
@@ -205,6 +209,7 @@ class Track {
     Tally tally_;
     double visible_share_ = 1;
     bool watches_inside_ = false;
+    bool leaps_ = false;     // its estimator does
     double sharp2_px2_ = 0;  // nearer than this, squared, an event lies on the contour
     std::int32_t piece_ = -1;
     bool is_covered_ = false;

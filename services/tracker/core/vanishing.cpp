@@ -53,6 +53,7 @@ Vanishing::Vanishing(const Silhouette& silhouette, double radius_px) {
     constexpr double half_diagonal = 0.75;
     const double farthest_cells = about_end_px * cells_per_px_ + half_diagonal;
     farthest2_cells2_ = farthest_cells * farthest_cells;
+    reach_px_ = farthest_cells / cells_per_px_;
     map_.assign(columns_ * columns_, nowhere);
     const double place_px2 = 1 / (cells_per_px_ * cells_per_px_);
 

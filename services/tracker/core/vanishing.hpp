@@ -47,6 +47,9 @@ class Vanishing {
     /// The shape has an inside to be watched.
     [[nodiscard]] bool can_tell() const { return inside_px2_ > 0; }
 
+    /// How far from the centre an event can be and tell anything, px of the model frame.
+    [[nodiscard]] double reach_px() const { return reach_px_; }
+
     /// An event, and where the object is. since_same_us: since the last one of the same pixel and
     /// polarity.
     void see(const Event& event, const Pose& pose, std::int64_t since_same_us) {
@@ -152,6 +155,7 @@ class Vanishing {
 
     double middle_ = 0;  // of the map, a square about the centre: half as many cells as it has
     double cells_per_px_ = 1;
+    double reach_px_ = 0;
     double farthest2_cells2_ = 0;  // from the centre, of a place that is somewhere, squared
     std::size_t columns_ = 0;
     std::vector<std::uint8_t> map_;         // which cell of the inside, or about, or nowhere

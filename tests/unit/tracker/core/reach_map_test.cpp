@@ -64,6 +64,7 @@ TEST(ReachMap, asks_everybody_whose_reach_a_pixel_is_in_as_they_move_and_grow) {
                 const double away_px = (reaches[i].center_px - Eigen::Vector2d(px, py)).norm();
                 if (away_px <= reaches[i].radius_px) {
                     EXPECT_TRUE(std::binary_search(indices.begin(), indices.end(), i));
+                    EXPECT_TRUE(map.reaches(i, px, py));
                 } else if (away_px > 1.5 * (reaches[i].radius_px + 80)) {
                     EXPECT_FALSE(std::binary_search(indices.begin(), indices.end(), i));
                 }
@@ -91,6 +92,45 @@ TEST(ReachMap, asks_an_object_everywhere_whose_reach_is_without_end) {
     map.place(1, {{100, 100}, std::numeric_limits<double>::infinity()});
     EXPECT_TRUE(is_asked(map, 1, 0, 0));
     EXPECT_TRUE(is_asked(map, 1, 303, 239));
+}
+
+TEST(ReachMap, of_many_objects_tells_of_each_place_in_a_cell_whether_one_reaches_it) {
+    ReachMap map;
+    map.restart(small_sensor, 100);
+    map.place(3, {{100, 100}, 20});
+    // With what is left for its moves, 22 px.
+    EXPECT_TRUE(map.reaches(3, 121, 100));
+    EXPECT_FALSE(map.reaches(3, 123, 100));
+    EXPECT_FALSE(map.reaches(3, 125, 120));
+    EXPECT_TRUE(is_asked(map, 3, 125, 120));
+    EXPECT_FALSE(map.reaches(4, 100, 100));
+}
+
+TEST(ReachMap, of_many_objects_knows_at_once_how_one_has_moved) {
+    ReachMap map;
+    map.restart(small_sensor, 100);
+    map.place(3, {{100, 100}, 20});
+    map.place(3, {{104, 100}, 20});
+    EXPECT_TRUE(map.reaches(3, 125, 100));
+    EXPECT_FALSE(map.reaches(3, 81, 100));
+}
+
+TEST(ReachMap, asks_an_object_that_may_be_elsewhere_in_all_of_its_cells) {
+    ReachMap map;
+    map.restart(small_sensor, 100);
+    map.place(3, {{100, 100}, 20});
+    EXPECT_FALSE(map.reaches(3, 125, 120));
+    map.place(3, {{100, 100}, 20, true});
+    EXPECT_TRUE(map.reaches(3, 125, 120));
+    map.place(3, {{100, 100}, 20, false});
+    EXPECT_FALSE(map.reaches(3, 125, 120));
+}
+
+TEST(ReachMap, asks_each_of_a_few_objects_in_all_of_its_cells) {
+    ReachMap map;
+    map.restart(small_sensor, 2);
+    map.place(1, {{100, 100}, 20});
+    EXPECT_TRUE(map.reaches(1, 125, 120));
 }
 
 TEST(ReachMap, takes_a_place_that_is_no_number_for_nowhere) {
