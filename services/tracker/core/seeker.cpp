@@ -2,7 +2,6 @@
 #include "services/tracker/core/seeker.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -11,8 +10,6 @@
 
 namespace pursuit::tracker {
 namespace {
-
-constexpr std::int32_t never_us = std::int32_t{-1} << 30;  // before what is looked at
 
 // How often it is asked who wants to be looked for.
 constexpr std::int64_t idle_us = 2'000;
@@ -47,6 +44,7 @@ constexpr double again_log_scale = 0.1;
 void Seeker::restart(Geometry geometry) {
     geometry_ = geometry;
     last_.restart();
+    gathered_.restart(geometry);
     forget_search();
     last_object_id_ = 0;
     attempt_ = 0;
@@ -121,7 +119,7 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks, const Occlusion& 
     }
     gather(t_us, range, chosen->radius_px(), count);
     const std::size_t least = waits ? count : count / 8;
-    if (gathered_.size() < (is_check_ ? wanted_events(*chosen, 0.2) : least)) {
+    if (gathered_.events().size() < (is_check_ ? wanted_events(*chosen, 0.2) : least)) {
         if (is_check_) chosen->wait_to_check(t_us);
         return;
     }
@@ -129,7 +127,7 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks, const Occlusion& 
     going_ = range.going;
     checked_ = own_ = range.checked;
     if (is_check_ && !going_) {
-        checked_ = checked_.at(t_us - static_cast<std::int64_t>(mean_age_us(t_us)), 1);
+        checked_ = checked_.at(t_us - static_cast<std::int64_t>(gathered_.mean_age_us(t_us)), 1);
         const double back_rad = theta_rad(checked_.pose.a) - theta_rad(range.checked.pose.a);
         range.around = {checked_.pose.t_px, rotation(back_rad) * range.around.a};
         range.seeds.front() = checked_.pose;
@@ -137,9 +135,10 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks, const Occlusion& 
     if (is_check_ && chosen->may_stretch()) {
         range.stretched = stretched_poses(chosen->contour(), checked_.pose);
     }
-    if (going_) lead_on(gathered_, t_us, *going_, geometry_);
-    if (!is_check_) chase_.begin(last_, t_us - static_cast<std::int64_t>(mean_age_us(t_us)));
-    map_.build(geometry_, gathered_);
+    if (going_) lead_on(gathered_.events(), t_us, *going_, geometry_);
+    if (!is_check_)
+        chase_.begin(last_, t_us - static_cast<std::int64_t>(gathered_.mean_age_us(t_us)));
+    map_.build(geometry_, gathered_.events());
     search_ = is_check_ ? ShapeSearch(chosen->contour(), chosen->outline())
                         : ShapeSearch(chosen->contour());
     search_.begin(map_, range);
@@ -230,8 +229,8 @@ double Seeker::more_as_it_goes() {
         return search_.score_of(pose) + explained_weight * search_.explained(pose);
     };
     const double standing = worth(checked_.pose);
-    lead_on(gathered_, own_.t_us, own_, geometry_);
-    map_.build(geometry_, gathered_);
+    lead_on(gathered_.events(), own_.t_us, own_, geometry_);
+    map_.build(geometry_, gathered_.events());
     return std::max(worth(own_.pose) - standing, 0.0);
 }
 
@@ -241,90 +240,22 @@ void Seeker::look_again(std::int64_t t_us, const Track& track, SearchRange again
     again.log_scale = track.has_fixed_scale() || is_check_ ? 0 : again_log_scale;
     gather(t_us, again, track.radius_px(),
            static_cast<std::size_t>(events_per_px * track.contour().length_px()));
-    if (again.going) lead_on(gathered_, t_us, *again.going, geometry_);
-    map_.build(geometry_, gathered_);
+    if (again.going) lead_on(gathered_.events(), t_us, *again.going, geometry_);
+    map_.build(geometry_, gathered_.events());
     search_.begin(map_, again);
     search_.step(1 << 30);
 }
 
 void Seeker::gather(std::int64_t t_us, const SearchRange& range, double radius_px,
                     std::size_t count) {
-    gathered_.clear();
-    const double reach_px = range.reach_px + radius_px + 8;
-    const auto is_in_reach = [&](const Event& event) {
-        return std::abs(event.x - range.around.t_px.x()) < reach_px &&
-               std::abs(event.y - range.around.t_px.y()) < reach_px;
-    };
-    // What lies a pixel farther out, and more, supports nothing that is in reach.
-    const auto within = [](double px, std::uint16_t end) {
-        return static_cast<std::uint16_t>(std::clamp<double>(std::floor(px), 0, end));
-    };
-    const double side_px = reach_px + 2;
-    const LastEvents::Box box{within(range.around.t_px.x() - side_px, geometry_.width),
-                              within(range.around.t_px.y() - side_px, geometry_.height),
-                              within(range.around.t_px.x() + side_px + 1, geometry_.width),
-                              within(range.around.t_px.y() + side_px + 1, geometry_.height)};
-    // Of the box and a rim about it, so that every pixel has its neighbours.
-    const auto columns = static_cast<std::size_t>(box.right - box.left) + 2;
-    const std::size_t pixels = columns * (static_cast<std::size_t>(box.bottom - box.top) + 2);
-    if (fired_us_.size() < pixels) fired_us_.resize(pixels, never_us);
-    looked_at_.clear();
-    neighbours_.clear();
-    chance_.begin(box.right - box.left, box.bottom - box.top);
-    std::int64_t first_us = t_us;
-    // Forwards, as they came: supported by a neighbour that fired shortly before.
-    const std::int64_t since_us = std::max(t_us - look_.window_us, range.since_us);
-    const auto neighbour_us = static_cast<std::int32_t>(look_.neighbour_us);
-    std::int32_t* const fired_us = fired_us_.data();
-    last_.for_each_in(box, since_us, [&, fired_us](const Event& event) {
-        const std::size_t at = static_cast<std::size_t>(event.y - box.top + 1) * columns +
-                               static_cast<std::size_t>(event.x - box.left + 1);
-        const auto now_us = static_cast<std::int32_t>(event.t_us - since_us);
-        const std::int32_t after_us = now_us - neighbour_us;
-        const auto fired_since = [&](std::size_t pixel) { return fired_us[pixel] > after_us; };
-        int neighbours = fired_since(at - 1) + fired_since(at + 1);
-        for (const std::size_t row : {at - columns, at + columns}) {
-            neighbours += fired_since(row - 1) + fired_since(row) + fired_since(row + 1);
-        }
-        if (fired_us[at] == never_us) {
-            chance_.add(event.x - box.left, event.y - box.top);
-        }
-        fired_us[at] = now_us;
-        looked_at_.push_back(at);
-        first_us = std::min(first_us, event.t_us);
-        if (neighbours == 0 || !is_in_reach(event) || is_of_cover(event)) return;
-        gathered_.push_back(event);
-        neighbours_.push_back(static_cast<std::uint8_t>(neighbours));
-    });
-    for (const std::size_t pixel : looked_at_) fired_us_[pixel] = never_us;
-    leave_out_noise(static_cast<double>(t_us - first_us));
-    if (gathered_.size() > count) {
-        gathered_.erase(gathered_.begin(), gathered_.end() - static_cast<std::ptrdiff_t>(count));
-    }
-}
-
-void Seeker::leave_out_noise(double over_us) {
-    const int least = chance_.least_neighbours(over_us, static_cast<double>(look_.neighbour_us),
-                                               is_check_ ? noise_in_check : noise_in_search);
-    if (least == 1) return;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < gathered_.size(); ++i) {
-        if (neighbours_[i] >= least) gathered_[kept++] = gathered_[i];
-    }
-    gathered_.resize(kept);
-}
-
-bool Seeker::is_of_cover(const Event& event) const {
-    return std::any_of(over_.begin(), over_.end(), [&](const Over& over) {
-        return over.silhouette.depth_px(Eigen::Vector2d(event.x, event.y),
-                                        over.now.at(event.t_us, 1).pose) > -Occlusion::band_px;
-    });
-}
-
-double Seeker::mean_age_us(std::int64_t t_us) const {
-    double sum_us = 0;
-    for (const Event& event : gathered_) sum_us += static_cast<double>(t_us - event.t_us);
-    return gathered_.empty() ? 0 : sum_us / static_cast<double>(gathered_.size());
+    SupportedEvents::Wish wish;
+    wish.around_px = range.around.t_px;
+    wish.reach_px = range.reach_px + radius_px + 8;
+    wish.since_us = std::max(t_us - look_.window_us, range.since_us);
+    wish.neighbour_us = look_.neighbour_us;
+    wish.noise_share = is_check_ ? noise_in_check : noise_in_search;
+    wish.most = count;
+    gathered_.gather(t_us, last_, wish, over_);
 }
 
 }  // namespace pursuit::tracker

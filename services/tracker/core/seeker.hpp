@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "services/common/event.hpp"
-#include "services/tracker/core/chance_support.hpp"
 #include "services/tracker/core/chase.hpp"
 #include "services/tracker/core/fired_map.hpp"
 #include "services/tracker/core/last_events.hpp"
 #include "services/tracker/core/occlusion.hpp"
 #include "services/tracker/core/shape_search.hpp"
+#include "services/tracker/core/supported_events.hpp"
 #include "services/tracker/core/track.hpp"
 
 namespace pursuit::tracker {
@@ -63,35 +63,18 @@ class Seeker {
     void find_nearby(std::int64_t t_us, Track& track);
     void end_check(std::int64_t t_us, Track& track);
     [[nodiscard]] double more_as_it_goes();
-    /// Whether it came from what lies over the object, where that was then.
-    [[nodiscard]] bool is_of_cover(const Event& event) const;
     /// Looks again near a pose, in the newest events.
     void look_again(std::int64_t t_us, const Track& track, SearchRange again);
-    [[nodiscard]] double mean_age_us(std::int64_t t_us) const;
     /// The last `count` events that have a neighbour in space and time, in reach of the range.
     void gather(std::int64_t t_us, const SearchRange& range, double radius_px, std::size_t count);
-    /// Of the gathered, those with no more neighbours than noise has that was looked at for so
-    /// long.
-    void leave_out_noise(double over_us);
     [[nodiscard]] static std::size_t wanted_events(const Track& track, double times);
-
-    /// What lies over the object that is checked: whatever comes from there is not of the object.
-    struct Over {
-        Silhouette silhouette;
-        Coast now;
-    };
 
     Geometry geometry_;
     LastEvents last_;
     Chase chase_;
     bool is_chasing_ = false;  // what the search has found
-    std::vector<Event> gathered_;
-    std::vector<std::uint8_t> neighbours_;  // that fired shortly before, of each gathered
-    ChanceSupport chance_;
-    // By pixel looked at, while gathering, since the first that is looked at; never in between.
-    std::vector<std::int32_t> fired_us_;
-    std::vector<Over> over_;
-    std::vector<std::size_t> looked_at_;  // the pixels
+    SupportedEvents gathered_;
+    std::vector<SupportedEvents::Cover> over_;  // what is checked
     FiredMap map_;
     ShapeSearch search_;
     Look look_;
