@@ -18,18 +18,20 @@ class Backlash {
  public:
     void restart(std::size_t pieces) { places_.assign(pieces, Place{}); }
 
-    /// The piece has its middle here now, in the image, and this normal.
-    double gone(std::int32_t piece, const Eigen::Vector2d& middle_px, const Eigen::Vector2d& n) {
+    /// The piece has its middle at t + arm now, in the image, and this normal; n_arm: n·arm, which
+    /// may be known before the arm is.
+    double gone(std::int32_t piece, const Eigen::Vector2d& t_px, const Eigen::Vector2d& arm_px,
+                const Eigen::Vector2d& n, double n_arm_px) {
         Place& place = places_[static_cast<std::size_t>(piece)];
         if (place.is_known) {
-            const double way_px = n.dot(middle_px - place.middle_px);
+            const double way_px = n.dot(t_px - place.middle_px) + n_arm_px;
             const double before = place.side;
             const double now = before + way_px * (1 / half_width_px);
             place.side = clamped(now, -1, 1);
             const bool has_turned = before * place.side <= 0;
             place.since_turn_px = has_turned ? now * half_width_px : place.since_turn_px + way_px;
         }
-        place.middle_px = middle_px;
+        place.middle_px = t_px + arm_px;
         place.is_known = true;
         return place.side;
     }

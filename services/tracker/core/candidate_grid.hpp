@@ -20,6 +20,7 @@ struct alignas(64) Segment {
     double dx, dy;
     double per_length2 = 0;  ///< 1/length²; 0 for a point.
     double nx = 0, ny = 0;   ///< The unit normal (dy, −dx)/length; 0 for a point.
+    double line = 0;         ///< How far along it the piece's line is from the origin.
 
     Segment(double from_x, double from_y, double to_x, double to_y)
         : ax(from_x), ay(from_y), dx(to_x - from_x), dy(to_y - from_y) {
@@ -29,6 +30,7 @@ struct alignas(64) Segment {
         const double length = std::sqrt(length2);
         nx = dy / length;
         ny = -dx / length;
+        line = nx * ax + ny * ay;
     }
 };
 

@@ -16,6 +16,8 @@ struct ContourPlace {
     Eigen::Vector2d model_px;  ///< In the model frame.
     Eigen::Vector2d arm_px;    ///< In the image, about T.
     Eigen::Vector2d n;         ///< The contour's unit normal there, image.
+    double turning_px = 0;     ///< How far the place goes along n in a turn by a radian.
+    double line_px = 0;        ///< Along n, from T to the line through the piece.
     double r_px = 0;           ///< Along it, from the place to the event.
     double squared_px = 0;     ///< The distance, squared.
 };
@@ -48,10 +50,12 @@ template <TransformKind kind>
         place.r_px = segment.nx * (x - segment.ax) + segment.ny * (y - segment.ay);
         place.n << a(0, 0) * segment.nx - a(1, 0) * segment.ny,
             a(1, 0) * segment.nx + a(0, 0) * segment.ny;
+        place.line_px = segment.line;
         if constexpr (kind == TransformKind::similarity) {
             const double scale = std::sqrt(scale2);
             place.r_px *= scale;
             place.n /= scale;
+            place.line_px *= scale;
         }
     } else {
         const double per_area = 1 / (a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
@@ -62,7 +66,8 @@ template <TransformKind kind>
         const Eigen::Vector2d along = a * Eigen::Vector2d(segment.dx, segment.dy);
         const double per_length = 1 / along.norm();
         place.n << along.y() * per_length, -along.x() * per_length;
-        place.r_px = place.n.dot(q - a * Eigen::Vector2d(segment.ax, segment.ay));
+        place.line_px = place.n.dot(a * Eigen::Vector2d(segment.ax, segment.ay));
+        place.r_px = place.n.dot(q) - place.line_px;
     }
     if (!(nearest.squared_px <= reach_px * reach_px)) return place;
     place.piece = nearest.piece;
@@ -71,11 +76,19 @@ template <TransformKind kind>
     place.model_px << segment.ax + nearest.foot * segment.dx,
         segment.ay + nearest.foot * segment.dy;
     place.arm_px = a * place.model_px;
+    if constexpr (kind == TransformKind::isometry) {
+        // (The same in either frame, and there it is known first.)
+        place.turning_px = segment.ny * place.model_px.x() - segment.nx * place.model_px.y();
+    } else {
+        place.turning_px = place.n.y() * place.arm_px.x() - place.n.x() * place.arm_px.y();
+    }
     if (!(segment.per_length2 > 0)) {
         // A point: from it to the event.
         place.r_px = std::sqrt(place.squared_px);
         place.n = place.r_px > 1e-9 ? Eigen::Vector2d((q - place.arm_px) / place.r_px)
                                     : Eigen::Vector2d(1, 0);
+        place.turning_px = place.n.y() * place.arm_px.x() - place.n.x() * place.arm_px.y();
+        place.line_px = place.n.dot(place.arm_px);
     }
     return place;
 }

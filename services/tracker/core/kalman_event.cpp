@@ -167,14 +167,15 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
         // (As of the piece's last event: which lead it is shall not wait for the way since.)
         subsequent = backlash_.has_turned(place.piece) ? follows_any : follows_same;
         const Eigen::Vector2d middle(segment.ax + segment.dx / 2, segment.ay + segment.dy / 2);
-        const double side = backlash_.gone(place.piece, pose.t_px + pose.a * middle, place.n);
+        const double side =
+            backlash_.gone(place.piece, pose.t_px, pose.a * middle, place.n, place.line_px);
         const auto told = edge_polarity_.tell(place.piece, polarity, side);
         h = parts_.polarity ? told.gone : side;
         if (parts_.polarity) measured_.of_polarity = told.likelihood;
         if (backlash_.is_settled(place.piece)) measured_.settled_side = side;
     }
     const int lead = 2 * polarity + (subsequent ? 1 : 0);
-    const Step j = M::along(place.n, place.arm_px, pose.a, place.model_px);
+    const Step j = M::along(place.n, place.turning_px, place.arm_px, pose.a, place.model_px);
     double ahead_px = 0;
     bool is_late = false;
     // Where it goes on as it went, its velocity says how far since the pixel fired.
@@ -187,7 +188,7 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     }
     measured_.gone = h;
     const double r_px =
-        place.r_px - (lead_px(place.piece, lead) + ahead_px) * h - offsets_.of(place.piece);
+        (place.r_px - offsets_.of(place.piece)) - (lead_px(place.piece, lead) + ahead_px) * h;
     const double distance_px = std::abs(r_px);
     if (distance_px > Clutter::far_from_px && distance_px < Clutter::far_to_px) {
         clutter_.count_far(place.piece, r_px);

@@ -25,23 +25,28 @@ struct Motion {
     /// d(n·p)/d(step) of the model point m, whose arm in the image is d = A·m.
     static Step along(const Eigen::Vector2d& n, const Eigen::Vector2d& d, const Eigen::Matrix2d& a,
                       const Eigen::Vector2d& m) {
+        return along(n, n.y() * d.x() - n.x() * d.y(), d, a, m);
+    }
+    /// The same; turning: d(n·p)/dθ.
+    static Step along(const Eigen::Vector2d& n, double turning, const Eigen::Vector2d& d,
+                      const Eigen::Matrix2d& a, const Eigen::Vector2d& m) {
         Step j;
         if constexpr (kind == TransformKind::full_affine) {
             j << n.x(), n.y(), n.x() * d.x(), n.x() * d.y(), n.y() * d.x(), n.y() * d.y();
+        } else if constexpr (kind == TransformKind::isometry) {
+            j << n.x(), n.y(), turning;
+        } else if constexpr (kind == TransformKind::similarity) {
+            j << n.x(), n.y(), turning, n.dot(d);
         } else {
-            const double turning = n.y() * d.x() - n.x() * d.y();
-            if constexpr (kind == TransformKind::isometry) {
-                j << n.x(), n.y(), turning;
-            } else if constexpr (kind == TransformKind::similarity) {
-                j << n.x(), n.y(), turning, n.dot(d);
-            } else {
-                j << n.x(), n.y(), turning, n.dot(a.col(0)) * m.x(), n.dot(a.col(1)) * m.y();
-            }
+            j << n.x(), n.y(), turning, n.dot(a.col(0)) * m.x(), n.dot(a.col(1)) * m.y();
         }
         return j;
     }
 
-    /// The pose after a step. Exact to third order in the angle.
+    /// The pose after a step. Exact to third order in the angle. `is_tidied`: what rounding has
+    /// taken off the form of A is made good. A prediction need not do it, that the next event's
+    /// lookup waits for, where a correction follows.
+    template <bool is_tidied = true>
     static void apply(const Step& step, Pose& pose) {
         pose.t_px += step.template head<2>();
         if constexpr (kind == TransformKind::full_affine) {
@@ -51,7 +56,7 @@ struct Motion {
             pose.a += b * (pose.a + 0.5 * b * pose.a);
         } else {
             if constexpr (kind == TransformKind::isometry) {
-                turn(step(2), pose.a);
+                turn<is_tidied>(step(2), pose.a);
                 return;
             }
             // Of what keeps its angles one column tells the other.
@@ -67,6 +72,7 @@ struct Motion {
                 pose.a.col(0) << x, y;
                 pose.a.col(0) *= grown(step(3));
                 pose.a.col(1) = other * grown(step(4));
+                if constexpr (!is_tidied) return;
                 // Keep the axes at right angles, against rounding.
                 const double length2 = pose.a.col(0).squaredNorm();
                 pose.a.col(1) -= pose.a.col(0) * (pose.a.col(0).dot(pose.a.col(1)) / length2);
@@ -74,14 +80,17 @@ struct Motion {
         }
     }
 
-    /// Turns a rotation. What rounding takes off the circle is made good with the
-    /// next turn, by one Newton step of 1/sqrt: so nobody waits for it.
+    /// Turns a rotation. What rounding takes off the circle is made good with the next turn (if
+    /// that is_tidied), by one Newton step of 1/sqrt: so nobody waits for it.
+    template <bool is_tidied = true>
     static void turn(double angle_rad, Eigen::Matrix2d& a) {
-        const double cosine = a(0, 0);
-        const double sine = a(1, 0);
-        const double onto = 1.5 - 0.5 * (cosine * cosine + sine * sine);
-        const double x = onto * cosine;
-        const double y = onto * sine;
+        double x = a(0, 0);
+        double y = a(1, 0);
+        if constexpr (is_tidied) {
+            const double onto = 1.5 - 0.5 * (x * x + y * y);
+            x *= onto;
+            y *= onto;
+        }
         // Of the smallest, which are those of nearly every event, to the third order.
         constexpr double smallest_rad = 0.01;
         const double square = angle_rad * angle_rad;

@@ -72,7 +72,7 @@ class TwistFilter {
 
     /// Where pose and twist are dt_s later.
     static void move(double dt_s, Pose& pose, Step& twist) {
-        M::apply(twist * dt_s, pose);
+        M::template apply<false>(twist * dt_s, pose);
         const double angle = M::omega(twist) * dt_s;
         const double vx = twist(0);
         twist(0) -= angle * (twist(1) + angle / 2 * vx);

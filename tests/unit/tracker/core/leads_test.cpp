@@ -16,48 +16,61 @@ TEST(Backlash, follows_a_way_across_the_piece_however_slow_and_not_one_along_it)
     Backlash backlash;
     backlash.restart(1);
     const Eigen::Vector2d up(0, -1);
-    EXPECT_EQ(backlash.gone(0, {10, 10}, up), 0);
-    EXPECT_NEAR(backlash.gone(0, {90, 9.85}, up), 0.5, 1e-9);
-    EXPECT_EQ(backlash.gone(0, {900, 5}, up), 1);
-    EXPECT_EQ(backlash.gone(0, {-900, 5}, up), 1);
+    EXPECT_EQ(backlash.gone(0, {10, 10}, {0, 0}, up, 0), 0);
+    EXPECT_NEAR(backlash.gone(0, {90, 9.85}, {0, 0}, up, 0), 0.5, 1e-9);
+    EXPECT_EQ(backlash.gone(0, {900, 5}, {0, 0}, up, 0), 1);
+    EXPECT_EQ(backlash.gone(0, {-900, 5}, {0, 0}, up, 0), 1);
 }
 
 TEST(Backlash, turns_to_the_other_side_within_twice_its_half_width_of_the_way_back) {
     Backlash backlash;
     backlash.restart(2);
     const Eigen::Vector2d right(1, 0);
-    backlash.gone(1, {0, 0}, right);
-    EXPECT_EQ(backlash.gone(1, {3, 0}, right), 1);
-    EXPECT_NEAR(backlash.gone(1, {2.7, 0}, right), 0, 1e-9);
-    EXPECT_NEAR(backlash.gone(1, {2.4, 0}, right), -1, 1e-9);
-    EXPECT_EQ(backlash.gone(0, {2.4, 0}, right), 0);  // Each piece has its own.
+    backlash.gone(1, {0, 0}, {0, 0}, right, 0);
+    EXPECT_EQ(backlash.gone(1, {3, 0}, {0, 0}, right, 0), 1);
+    EXPECT_NEAR(backlash.gone(1, {2.7, 0}, {0, 0}, right, 0), 0, 1e-9);
+    EXPECT_NEAR(backlash.gone(1, {2.4, 0}, {0, 0}, right, 0), -1, 1e-9);
+    EXPECT_EQ(backlash.gone(0, {2.4, 0}, {0, 0}, right, 0), 0);  // Each piece has its own.
 }
 
 TEST(Backlash, has_turned_until_it_is_past_what_it_came_back_on) {
     Backlash backlash;
     backlash.restart(1);
     const Eigen::Vector2d right(1, 0);
-    backlash.gone(0, {0, 0}, right);
-    backlash.gone(0, {9, 0}, right);
+    backlash.gone(0, {0, 0}, {0, 0}, right, 0);
+    backlash.gone(0, {9, 0}, {0, 0}, right, 0);
     EXPECT_FALSE(backlash.has_turned(0));
     EXPECT_TRUE(backlash.is_settled(0));
-    for (const double x : {8.9, 8.8}) backlash.gone(0, {x, 0}, right);
+    for (const double x : {8.9, 8.8}) backlash.gone(0, {x, 0}, {0, 0}, right, 0);
     EXPECT_FALSE(backlash.has_turned(0));  // Not yet: the pixels have not told.
-    for (const double x : {8.6, 8.0}) backlash.gone(0, {x, 0}, right);
+    for (const double x : {8.6, 8.0}) backlash.gone(0, {x, 0}, {0, 0}, right, 0);
     EXPECT_TRUE(backlash.has_turned(0));
     EXPECT_FALSE(backlash.is_settled(0));
-    backlash.gone(0, {7.5, 0}, right);
+    backlash.gone(0, {7.5, 0}, {0, 0}, right, 0);
     EXPECT_TRUE(backlash.has_turned(0));
     EXPECT_TRUE(backlash.is_settled(0));
-    backlash.gone(0, {6.5, 0}, right);
+    backlash.gone(0, {6.5, 0}, {0, 0}, right, 0);
     EXPECT_FALSE(backlash.has_turned(0));
+}
+
+TEST(Backlash, is_told_the_same_of_a_piece_beside_the_pose_by_its_place_along_the_normal) {
+    Backlash one;
+    Backlash other;
+    one.restart(1);
+    other.restart(1);
+    const Eigen::Vector2d n(0.6, -0.8);
+    for (const double x : {50.0, 50.02, 50.1, 50.05, 50.3, 49.9}) {
+        const Eigen::Vector2d t(x, 20);
+        const Eigen::Vector2d arm(12 + x, -7);
+        EXPECT_NEAR(one.gone(0, t, arm, n, n.dot(arm)), other.gone(0, t + arm, {0, 0}, n, 0), 1e-9);
+    }
 }
 
 TEST(Backlash, of_a_piece_that_trembles_on_its_way_is_settled) {
     Backlash backlash;
     backlash.restart(1);
     for (int i = 0; i < 100; ++i) {
-        backlash.gone(0, {0.1 * i + (i % 2 == 0 ? 0.1 : -0.1), 0}, {1, 0});
+        backlash.gone(0, {0.1 * i + (i % 2 == 0 ? 0.1 : -0.1), 0}, {0, 0}, {1, 0}, 0);
     }
     EXPECT_TRUE(backlash.is_settled(0));
     EXPECT_FALSE(backlash.has_turned(0));

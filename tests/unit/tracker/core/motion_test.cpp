@@ -54,6 +54,21 @@ TYPED_TEST(MotionOf, stays_a_pose_of_its_kind_over_many_steps) {
     EXPECT_LT((constrained(pose, TypeParam::kind).a - pose.a).norm(), 1e-9 * pose.a.norm());
 }
 
+TYPED_TEST(MotionOf, predicts_what_a_step_makes_and_is_tidied_with_the_next_one) {
+    using M = Motion<TypeParam::kind>;
+    typename M::Step step = M::Step::Constant(2e-3);
+    Pose pose = a_pose(TypeParam::kind);
+    Pose predicted = pose;
+    for (int i = 0; i < 1000; ++i) {
+        M::apply(step, pose);
+        M::template apply<false>(step, predicted);
+        step = -step;
+    }
+    EXPECT_LT((pose.a - predicted.a).norm(), 1e-9);
+    for (int i = 0; i < 3; ++i) M::apply(M::Step::Zero(), predicted);
+    EXPECT_LT((predicted.a - constrained(predicted, TypeParam::kind).a).norm(), 1e-12);
+}
+
 TYPED_TEST(MotionOf, reads_velocities_back_as_they_were_given) {
     using M = Motion<TypeParam::kind>;
     Velocity given{30, -20, 2, 0, 0};
@@ -112,6 +127,15 @@ TYPED_TEST(MotionOf, is_filtered_as_full_matrices_would) {
     }
     EXPECT_LT((filter.covariance() - p).norm(), 1e-9 * p.norm());
     EXPECT_LT((filter.covariance() - filter.covariance().transpose()).norm(), 1e-9 * p.norm());
+}
+
+TEST(Motion, turns_by_the_angle_to_the_third_order_and_by_a_large_one_to_the_fourth) {
+    for (const double angle : {0.0, 1e-6, -3e-3, 9.9e-3, 0.0101, -0.1}) {
+        Eigen::Matrix2d a = rotation(0.7);
+        Motion<TransformKind::isometry>::turn(angle, a);
+        const double order = std::abs(angle) < 0.01 ? std::pow(angle, 4) : std::pow(angle, 5);
+        EXPECT_LT((a - rotation(0.7 + angle)).norm(), 1e-15 + std::abs(order)) << angle;
+    }
 }
 
 TEST(Motion, carries_a_turning_object_on_its_circle) {

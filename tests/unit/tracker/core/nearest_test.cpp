@@ -8,6 +8,7 @@
 
 #include "services/tracker/core/contour.hpp"
 #include "services/tracker/core/contour_edges.hpp"
+#include "services/tracker/core/contour_place.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
 
 namespace pursuit::tracker {
@@ -107,6 +108,16 @@ INSTANTIATE_TEST_SUITE_P(EveryTransform, Nearest,
                                          TransformKind::paper_affine, TransformKind::full_affine),
                          [](const auto& kind) { return std::string(to_string(kind.param)); });
 
+template <TransformKind k>
+struct Of {
+    static constexpr TransformKind kind = k;
+};
+template <class T>
+class PlaceOnContour : public testing::Test {};
+using Kinds = testing::Types<Of<TransformKind::isometry>, Of<TransformKind::similarity>,
+                             Of<TransformKind::paper_affine>, Of<TransformKind::full_affine>>;
+TYPED_TEST_SUITE(PlaceOnContour, Kinds);
+
 TEST(NearestPiece, agrees_with_a_kd_tree_on_a_large_model) {
     using Points = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
     Random random(3);
@@ -156,6 +167,27 @@ TEST(NearestPiece, is_beyond_reach_where_it_finds_nothing_and_nowhere_within_rea
     }
     EXPECT_GT(beyond, 1000);
     EXPECT_LT(beyond, 99'000);
+}
+
+TYPED_TEST(PlaceOnContour, tells_where_its_line_is_and_how_it_goes_in_a_turn) {
+    Random random(7);
+    const Contour contour(test::arrow());
+    CandidateGrid grid = contour.pieces();
+    grid.build(30, 4);
+    int found = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Eigen::Matrix2d a = random_a(TypeParam::kind, random);
+        const Eigen::Vector2d q(random.between(-50, 50), random.between(-50, 50));
+        const ContourPlace place = place_on_contour<TypeParam::kind>(grid, a, q, 8);
+        if (place.piece < 0) continue;
+        ++found;
+        const Eigen::Vector2d& n = place.n;
+        const Eigen::Vector2d& arm = place.arm_px;
+        EXPECT_NEAR(place.line_px, n.dot(arm), 1e-9);
+        EXPECT_NEAR(place.line_px + place.r_px, n.dot(q), 1e-9);
+        EXPECT_NEAR(place.turning_px, n.y() * arm.x() - n.x() * arm.y(), 1e-9);
+    }
+    EXPECT_GT(found, 100);
 }
 
 TEST(NearestPiece, finds_the_one_place_of_a_model_that_is_a_line) {
