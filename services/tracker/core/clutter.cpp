@@ -22,6 +22,14 @@ constexpr double more_than_noise = 1.4;
 constexpr double swamping_hz = 150;
 constexpr double swamped_share = 0.25;
 constexpr double surfaced_share = 0.5;
+// A pixel. Where there is more, it is told whether it is steady.
+constexpr double weak_hz = 5;
+constexpr double least_seen = 40;  // events
+// Of contour, in half a second: a third of a px of way makes them. Fewer tell nothing, wherever
+// they are: some may be of a pixel that fires by itself.
+constexpr double few_per_px = 0.7;
+constexpr double near_memory_events = 250;
+constexpr double sudden = 3;  // times as many on the contour at once: an object sets out
 const double log_more_than_noise = std::log(more_than_noise);
 constexpr double surely = 12;  // a log likelihood
 
@@ -77,6 +85,8 @@ void Clutter::restart() {
     fresh_count_ = 0;
     for_more_ = for_noise_ = 0;
     is_noise_alone_ = is_quiet_ = is_swamped_ = is_steady_ = false;
+    has_shown_more_ = is_told_weak_ = false;
+    most_near_hz_ = seen_ = 0;
     usual_near_hz_ = 0;
     bin_events_ = bin_mean_ = bin_variance_ = bins_ = 0;
     bin_end_us_ = 0;
@@ -85,6 +95,7 @@ void Clutter::restart() {
     bounded_us_ = 0;
     remembered_ = 0;
     new_far_ = far_hz_ = {};
+    new_near_ = near_hz_ = near_remembered_ = 0;
     near_count_ = near_began_us_ = slack_us_ = 0;
     folded_us_ = fold_at_us_ = last_near_us_ = due_us_ = t_us_ = 0;
     has_begun_ = false;
@@ -280,7 +291,37 @@ void Clutter::fold(std::int64_t t_us) {
                   whole_.own_share < (is_swamped_ ? surfaced_share : swamped_share);
     const double own_hz = std::max({near_hz - clutter_hz, 0.1 * near_hz, 1e-3});
     for (std::size_t side = 0; side < 2; ++side) standing_density_[side] = beside_hz[side] / own_hz;
+    const double near_kept =
+        std::exp(-dt_s * std::max(1 / far_memory_s, usual_on_contour_hz() / near_memory_events));
+    near_hz_ = near_hz_ * near_kept + new_near_ / std::max(dt_s, 1e-6) * (1 - near_kept);
+    near_remembered_ = near_remembered_ * near_kept + (1 - near_kept);
+    most_near_hz_ = 2 * weak_hz * near_px2;
+    seen_ += new_near_ + new_far_[0] + new_far_[1];
+    if (seen_ >= least_seen) {
+        has_shown_more_ |= !seems_weak_noise(near_hz, clutter_hz);
+        is_told_weak_ = !has_shown_more_;
+    }
     new_far_ = {};
+    new_near_ = 0;
+}
+
+bool Clutter::seems_weak_noise(double near_hz, double clutter_hz) const {
+    const double left = far_hz_[0] * far_memory_s;
+    const double right = far_hz_[1] * far_memory_s;
+    const double beside = left + right;
+    const double usual_hz = usual_on_contour_hz();
+    const double length_px = (whole_.near_width_px[0] + whole_.near_width_px[1]) / 2;
+    const double few = few_per_px * length_px;
+    if (beside + usual_hz * far_memory_s < few && near_hz * far_memory_s < few) return true;
+    // Of so few, three standard deviations are chance.
+    const double left_share =
+        whole_.far_area_px2[0] / (whole_.far_area_px2[0] + whole_.far_area_px2[1]);
+    const double most_off = 3 * std::sqrt(beside * left_share * (1 - left_share));
+    const double near = std::min(usual_hz * far_memory_s, near_memory_events) * remembered_;
+    const double most =
+        more_than_noise + 3 * std::sqrt(1 / std::max(near, 1.0) + 1 / std::max(beside, 1.0));
+    return counted_hz_ < weak_hz && std::abs(left - beside * left_share) < most_off &&
+           usual_hz < most * clutter_hz && near_hz < sudden * clutter_hz;
 }
 
 }  // namespace pursuit::tracker

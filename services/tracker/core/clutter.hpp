@@ -38,6 +38,7 @@ class Clutter {
     /// An event on the contour, counted or not.
     void pass_near() {
         if (is_steady_) weigh_noise();
+        ++new_near_;
         last_near_us_ = t_us_;
         if (near_count_ < near_window_events) {
             ++near_count_;
@@ -71,6 +72,13 @@ class Clutter {
     /// Whether what comes is noise alone: on the contour no more than beside it, and beside it as
     /// steady as chance. (The edges of other things come and go.)
     [[nodiscard]] bool is_noise_alone() const { return is_noise_alone_ && is_steady(); }
+
+    /// Whether all that has come since the restart may have been noise, of which there is too
+    /// little to tell how steady it is: no more on the contour than beside it, and on both sides
+    /// alike.
+    [[nodiscard]] bool can_be_weak_noise() const {
+        return is_told_weak_ && near_count_ * 1e6 < most_near_hz_ * near_time_us();
+    }
 
     /// What is told for noise on the contour and beside it, Hz a px², if is_steady(): as much as is
     /// counted beside it, where other things pass as well, and no more than the pixels about the
@@ -141,6 +149,11 @@ class Clutter {
     void find_facings(const Contour& contour);
     [[nodiscard]] bool seems_steady() const;
     void fold(std::int64_t t_us);
+    [[nodiscard]] double usual_on_contour_hz() const {
+        return near_hz_ / std::max(near_remembered_, 0.01);
+    }
+    /// clutter_hz: of what comes on the contour; near_hz: of the last ten or so there.
+    [[nodiscard]] bool seems_weak_noise(double near_hz, double clutter_hz) const;
     void close_bin(std::int64_t t_us);
 
     Part whole_;
@@ -166,7 +179,14 @@ class Clutter {
     double noise_on_contour_hz_ = 0;
     double remembered_ = 0;
     std::array<double, 2> new_far_{};
-    std::array<double, 2> far_hz_{};
+    std::array<double, 2> far_hz_{};  // of the time remembered
+    double new_near_ = 0;
+    double near_hz_ = 0;  // over half a second, or fewer where many come
+    double near_remembered_ = 0;
+    bool has_shown_more_ = false;
+    bool is_told_weak_ = false;
+    double most_near_hz_ = 0;   // of it, for a moment
+    double seen_ = 0;           // events since the restart
     double near_count_ = 0;     // the last ten or so on the contour, …
     double near_began_us_ = 0;  // … and when they began
     double slack_us_ = 0;       // time of them after which the density is told anew

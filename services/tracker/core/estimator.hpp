@@ -83,6 +83,9 @@ class Estimator {
     virtual void stand_still() {}
     /// Whether what comes near the object is noise alone: it makes no events of its own.
     [[nodiscard]] virtual bool sees_noise_alone() const { return false; }
+    /// Whether what comes may as well be noise, of which there is little: of an object whose place
+    /// was not yet confirmed it says nothing then.
+    [[nodiscard]] virtual bool may_see_noise_alone() const { return false; }
     /// Whether among strong noise the object shows where it is thought to be, plainly or not, and
     /// nothing nearby does better.
     [[nodiscard]] virtual bool is_seen_here() const { return false; }

@@ -62,6 +62,9 @@ class KalmanEstimator : public Estimator {
     [[nodiscard]] bool sees_noise_alone() const override {
         return watch_.helps() ? watch_.is_unseen() : clutter_.is_noise_alone();
     }
+    [[nodiscard]] bool may_see_noise_alone() const override {
+        return sees_noise_alone() || (!watch_.is_on() && clutter_.can_be_weak_noise());
+    }
     [[nodiscard]] bool is_seen_here() const override { return watch_.is_seen_here(); }
     [[nodiscard]] bool stands_out() const override { return watch_.is_sure(); }
     [[nodiscard]] bool is_swamped() const override { return clutter_.is_swamped(); }

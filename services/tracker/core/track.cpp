@@ -145,7 +145,8 @@ void Track::run_off(std::int64_t t_us) {
 }
 
 void Track::weigh(std::int64_t t_us) {
-    const bool is_noise = estimator_->sees_noise_alone();
+    const bool is_noise =
+        doubt_.is_open() ? estimator_->may_see_noise_alone() : estimator_->sees_noise_alone();
     const bool says_nothing = is_noise || grip_.health().is_quiet();
     vanishing_.count_own(t_us, grip_.sharp(), grip_.astray(),
                          says_nothing ? 0 : grip_.health().usual_sharpness());

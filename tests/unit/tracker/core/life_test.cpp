@@ -40,6 +40,31 @@ TEST(Life, of_a_still_object_stays_tracking_with_falling_confidence) {
     EXPECT_LT(last(poses).confidence, 0.5F);
 }
 
+TEST(Life, of_an_object_that_stands_where_it_starts_is_tracking_in_little_noise_until_it_goes) {
+    // Standing for 1.5 s, then at 60 px/s, with as many events as a real pixel makes.
+    const auto truth = [](double t_us) {
+        return pose_of(120 + 60e-6 * std::max(t_us - 1'500'000, 0.0), 110, 0.4);
+    };
+    for (const double noise_hz : {0.02, 0.1, 0.4, 1.0, 2.0}) {
+        auto events = outline_events(arrow(), truth, 0, 1'500'000, 0, test::noise_per_ms(noise_hz),
+                                     small_sensor, 1);
+        const auto going = outline_events(arrow(), truth, 1'500'000, 2'000'000, 200,
+                                          test::noise_per_ms(noise_hz), small_sensor, 2);
+        events.insert(events.end(), going.begin(), going.end());
+        Tracker tracker = that_follows_an_arrow(truth(0));
+        Poses poses;
+        tracker.process(events, poses);
+        for (const auto& row : poses.rows) {
+            ASSERT_EQ(row.record.state, TrackState::tracking) << noise_hz << " " << row.record.t_us;
+            if (row.record.t_us > 1'000'000 && row.record.t_us < 1'500'000) {
+                EXPECT_LE(row.record.confidence, 0.5F) << noise_hz;
+                EXPECT_LT(rms_px(arrow(), row.record.pose, truth(0)), 2) << noise_hz;
+            }
+        }
+        EXPECT_LT(rms_px(arrow(), last(poses).pose, truth(2e6)), 0.5) << noise_hz;
+    }
+}
+
 TEST(Life, finds_an_object_that_starts_pixels_away) {
     for (const double off_px : {3.0, 8.0, 14.0, 20.0}) {
         for (const double direction : {0.0, 1.6, 3.1, 4.7}) {
