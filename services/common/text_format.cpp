@@ -90,7 +90,7 @@ Result<void> read_text_file(const std::string& path, Message& message) {
 Result<void> write_text_file(const std::string& path, const Message& message) {
     std::string text;
     if (!TextFormat::PrintToString(message, &text)) return fail(path + ": cannot be printed");
-    return write_file_atomically(path, text);
+    return write_output(path, text);
 }
 
 }  // namespace pursuit

@@ -24,7 +24,7 @@ Result<void> merge_text(std::string_view text, const std::string& name,
 /// Reads a file of Protobuf text, as parse_text(). At most 64 MiB.
 Result<void> read_text_file(const std::string& path, google::protobuf::Message& message);
 
-/// Writes `message` as Protobuf text, as write_file_atomically().
+/// Writes `message` as Protobuf text, as write_output().
 Result<void> write_text_file(const std::string& path, const google::protobuf::Message& message);
 
 }  // namespace pursuit

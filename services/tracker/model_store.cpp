@@ -219,6 +219,9 @@ Result<std::optional<StoredState>> read_store(const std::string& path) {
         if (error) return fail(path + ": cannot be looked for: " + error.message());
         return std::optional<StoredState>();
     }
+    if (!std::filesystem::is_regular_file(path, error)) {
+        return fail(path + ": is no regular file, as a store must be");
+    }
     const auto size = std::filesystem::file_size(path, error);
     if (error) return fail(path + ": cannot be read: " + error.message());
     Result<StoredState> state = fail("larger than 256 MiB");
@@ -230,8 +233,11 @@ Result<std::optional<StoredState>> read_store(const std::string& path) {
         state = decode_store(bytes.str());
     }
     if (state) return std::optional<StoredState>(std::move(*state));
-    const std::string aside = path + ".damaged";
-    std::filesystem::rename(path, aside, error);
+    // A link stays, as it does where the store is written.
+    const auto file = followed_links(path);
+    if (!file) return tl::unexpected(file.error());
+    const std::string aside = *file + ".damaged";
+    std::filesystem::rename(*file, aside, error);
     return fail(
         path + ": the store is damaged: " + state.error().message +
         (error ? "; it could not be kept aside: " + error.message() : "; it is kept as " + aside));

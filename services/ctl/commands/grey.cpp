@@ -46,11 +46,12 @@ int grey(const GreyOptions& options) {
     const auto png = grey_png(*image);
     if (!png) return report(png.error());
     const std::string_view bytes(reinterpret_cast<const char*>(png->data()), png->size());
-    if (auto ok = write_file_atomically(options.output, bytes); !ok) return report(ok.error());
+    if (auto ok = write_output(options.output, bytes); !ok) return report(ok.error());
     const auto pixels = image->integration_us().size();
-    std::printf("%s: %ux%u, %zu of %zu pixels measured by %.6f s\n", options.output.c_str(),
-                unsigned{image->geometry().width}, unsigned{image->geometry().height},
-                image->measured_pixels(), pixels, options.at_s);
+    std::fprintf(summary_of(options.output), "%s: %ux%u, %zu of %zu pixels measured by %.6f s\n",
+                 options.output.c_str(), unsigned{image->geometry().width},
+                 unsigned{image->geometry().height}, image->measured_pixels(), pixels,
+                 options.at_s);
     return exit_success;
 }
 

@@ -64,9 +64,10 @@ int extract(ExtractOptions& options) {
         return report(ok.error());
     }
     const auto& model = extracted->model;
-    std::printf("%s: %zu points, %zu links, %s; centre of gravity at (%.2f, %.2f) px\n",
-                options.output.c_str(), model.shape.points_px.size(), model.shape.edges.size(),
-                model.comment.c_str(), model.origin_px->x(), model.origin_px->y());
+    std::fprintf(summary_of(options.output),
+                 "%s: %zu points, %zu links, %s; centre of gravity at (%.2f, %.2f) px\n",
+                 options.output.c_str(), model.shape.points_px.size(), model.shape.edges.size(),
+                 model.comment.c_str(), model.origin_px->x(), model.origin_px->y());
     return exit_success;
 }
 

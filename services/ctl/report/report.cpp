@@ -276,7 +276,7 @@ std::string render_report(const Report& report, const ReportLimits& limits) {
 
 Result<void> write_report(const std::string& path, const Report& report,
                           const ReportLimits& limits) {
-    return write_file_atomically(path, render_report(report, limits));
+    return write_output(path, render_report(report, limits));
 }
 
 }  // namespace pursuit::ctl

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -148,6 +149,33 @@ TEST(ModelStore, keeps_a_damaged_file_aside_and_names_it) {
     EXPECT_THAT(read.error().message, HasSubstr("kept as " + path + ".damaged"));
     EXPECT_FALSE(std::filesystem::exists(path));
     EXPECT_EQ(test::content_of(path + ".damaged"), "not a store");
+}
+
+TEST(ModelStore, behind_a_link_is_written_read_and_kept_aside_in_its_own_folder) {
+    const test::TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path("far"));
+    const auto link = folder.path("tracker.store");
+    std::filesystem::create_symlink("far/store", link);
+    ASSERT_TRUE(write_store(link, state()));
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder.path("far/store")));
+    const auto read = read_store(link);
+    ASSERT_TRUE(read && *read);
+    expect_same(**read, state());
+    folder.file("far/store", "not a store");
+    EXPECT_FALSE(read_store(link));
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_EQ(test::content_of(folder.path("far/store.damaged")), "not a store");
+}
+
+TEST(ModelStore, is_not_read_from_nor_written_over_what_is_no_regular_file) {
+    const test::TemporaryFolder folder;
+    const auto fifo = folder.path("fifo");
+    ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+    const auto read = read_store(fifo);
+    ASSERT_FALSE(read);
+    EXPECT_THAT(read.error().message, HasSubstr("is no regular file"));
+    EXPECT_FALSE(write_store(fifo, state()));
+    EXPECT_TRUE(std::filesystem::is_fifo(fifo));
 }
 
 TEST(ModelStore, tells_that_a_folder_cannot_be_written) {
