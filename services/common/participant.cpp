@@ -65,9 +65,11 @@ dds::DomainParticipantQos participant_qos(const disk::Dds& settings, const std::
 Result<std::unique_ptr<Participant>> Participant::create(const disk::Dds& settings,
                                                          const std::string& name,
                                                          const std::string& sensor) {
-    for (const auto& peer : settings.initial_peer()) {
+    for (int i = 0; i < settings.initial_peer_size(); ++i) {
+        const auto& peer = settings.initial_peer(i);
         if (!eprosima::fastrtps::rtps::IPLocator::isIPv4(peer)) {
-            return fail("field dds.initial_peer: \"" + peer + "\" is no IPv4 address");
+            return fail_field("dds.initial_peer[" + std::to_string(i) + "]",
+                              ": \"" + peer + "\" is no IPv4 address");
         }
     }
     std::unique_ptr<Participant> self(new Participant);

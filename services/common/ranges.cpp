@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ranges.pb.h"
+#include "services/common/field_places.hpp"
 
 namespace pursuit {
 namespace {
@@ -105,8 +106,8 @@ Result<void> check_below(const Message& message, const std::string& name,
         const int count = field->is_repeated() ? reflection->FieldSize(message, field) : 1;
         const auto where = [&](int index) {
             if (places == nullptr) return name;
-            const auto place = places->GetLocation(field, index);
-            return place.line < 0 ? name : name + ":" + std::to_string(place.line + 1);
+            const int line = line_in_text(*places, *field, index);
+            return line < 0 ? name : name + ":" + std::to_string(line + 1);
         };
         if (field->is_repeated() && field->options().HasExtension(disk::max_length) &&
             static_cast<std::uint32_t>(count) > field->options().GetExtension(disk::max_length)) {

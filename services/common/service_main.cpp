@@ -52,10 +52,12 @@ const disk::Log& log_settings(const google::protobuf::Message& configuration) {
         configuration.GetReflection()->GetMessage(configuration, field));
 }
 
-int run(Service& service, const std::string& name, const StopSignals& signals) {
+int run(Service& service, const std::string& name, const FieldPlaces& places,
+        const StopSignals& signals) {
     if (auto started = service.start(); !started) {
-        spdlog::error("{} cannot start: {}", name, started.error().message);
-        ::sd_notifyf(0, "STATUS=cannot start: %s", started.error().message.c_str());
+        const auto error = places.located(started.error(), "");
+        spdlog::error("{} cannot start: {}", name, error.message);
+        ::sd_notifyf(0, "STATUS=cannot start: %s", error.message.c_str());
         service.stop();
         return exit_failure;
     }
@@ -100,9 +102,10 @@ int service_main(int argc, char** argv, const std::string& name,
         return app.exit(error) == 0 ? exit_success : exit_configuration;
     }
 
+    FieldPlaces places;
     Result<void> read;
-    if (!path.empty()) read = read_text_file(path, configuration);
-    if (read) read = apply_settings(settings, configuration);
+    if (!path.empty()) read = read_text_file(path, configuration, &places);
+    if (read) read = apply_settings(settings, configuration, &places);
     if (!read) {
         start_log({});
         spdlog::error("{}: {}", name, read.error().message);
@@ -113,15 +116,14 @@ int service_main(int argc, char** argv, const std::string& name,
     try {
         auto service = make();
         if (!service) {
-            spdlog::error("{}: {}{}", name, path.empty() ? "" : path + ": ",
-                          service.error().message);
+            spdlog::error("{}: {}", name, places.located(service.error(), path).message);
             return exit_configuration;
         }
         if (check) {
             std::cout << "the configuration is good\n";
             return exit_success;
         }
-        return run(**service, name, signals);
+        return run(**service, name, places, signals);
     } catch (const std::exception& error) {
         spdlog::critical("{} ends: {}", name, error.what());
         return exit_failure;

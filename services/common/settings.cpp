@@ -33,9 +33,17 @@ std::optional<PathPart> parse_part(const std::string& text) {
     return PathPart{text.substr(0, bracket), index};
 }
 
-/// Applies one setting to `message`, which the path so far leads to.
-Result<void> apply_setting(const std::string& name, std::string_view path, const std::string& value,
-                           Message& message) {
+/// The path of `field` below `above`; of a repeated field that of the entry `index`.
+std::string path_of(const std::string& above, const FieldDescriptor& field, int index) {
+    return (above.empty() ? "" : above + ".") + field.name() +
+           (field.is_repeated() ? "[" + std::to_string(index) + "]" : "");
+}
+
+/// Applies one setting to `message`, which the path `above` leads to; gives the path of what it has
+/// set.
+Result<std::string> apply_setting(const std::string& name, std::string_view path,
+                                  const std::string& value, const std::string& above,
+                                  Message& message) {
     const auto dot = std::min(path.find('.'), path.size());
     const auto part = parse_part(std::string(path.substr(0, dot)));
     const auto& type = *message.GetDescriptor();
@@ -47,9 +55,15 @@ Result<void> apply_setting(const std::string& name, std::string_view path, const
         return fail(name + ": " + type.name() + " has no field \"" + part->field + "\"");
     }
     const bool last = dot == path.size();
+    const auto* reflection = message.GetReflection();
+    const int size = field->is_repeated() ? reflection->FieldSize(message, field) : 0;
+    const auto merge = [&](const std::string& text) -> Result<std::string> {
+        if (auto ok = merge_text(text, name, message); !ok) return tl::unexpected(ok.error());
+        return path_of(above, *field, size);
+    };
     const bool is_whole = last && !part->index && !value.empty() && value.front() == '{';
     if (is_whole && field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
-        return merge_text(part->field + " " + value, name, message);
+        return merge(part->field + " " + value);
     }
     if (last == (field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE)) {
         return fail(
@@ -63,12 +77,11 @@ Result<void> apply_setting(const std::string& name, std::string_view path, const
         const bool quote = field->cpp_type() == FieldDescriptor::CPPTYPE_STRING &&
                            (value.empty() || value.front() != '"');
         const std::string text = quote ? "\"" + google::protobuf::CEscape(value) + "\"" : value;
-        return merge_text(part->field + ": " + text, name, message);
+        return merge(part->field + ": " + text);
     }
-    const auto* reflection = message.GetReflection();
-    if (part->index && *part->index >= reflection->FieldSize(message, field)) {
-        return fail(name + ": there are " + std::to_string(reflection->FieldSize(message, field)) +
-                    " of field \"" + part->field + "\", counted from 0");
+    if (part->index && *part->index >= size) {
+        return fail(name + ": there are " + std::to_string(size) + " of field \"" + part->field +
+                    "\", counted from 0");
     }
     Message* nested = nullptr;
     if (part->index) {
@@ -78,12 +91,14 @@ Result<void> apply_setting(const std::string& name, std::string_view path, const
     } else {
         nested = reflection->MutableMessage(&message, field);
     }
-    return apply_setting(name, path.substr(dot + 1), value, *nested);
+    return apply_setting(name, path.substr(dot + 1), value,
+                         path_of(above, *field, part->index.value_or(size)), *nested);
 }
 
 }  // namespace
 
-Result<void> apply_settings(const std::vector<std::string>& settings, Message& message) {
+Result<void> apply_settings(const std::vector<std::string>& settings, Message& message,
+                            FieldPlaces* places) {
     for (const auto& setting : settings) {
         const std::string name = "--set " + setting;
         const auto equals = setting.find('=');
@@ -91,8 +106,9 @@ Result<void> apply_settings(const std::vector<std::string>& settings, Message& m
             return fail(name + ": must be field=value");
         }
         const std::string_view path(setting.data(), equals);
-        if (auto ok = apply_setting(name, path, setting.substr(equals + 1), message); !ok)
-            return ok;
+        const auto field = apply_setting(name, path, setting.substr(equals + 1), "", message);
+        if (!field) return tl::unexpected(field.error());
+        if (places != nullptr) places->note(*field, name);
     }
     return {};
 }

@@ -9,7 +9,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <optional>
 #include <sstream>
+#include <vector>
 
 #include "services/common/atomic_file.hpp"
 #include "services/common/ranges.hpp"
@@ -54,27 +57,53 @@ class FirstError : public google::protobuf::io::ErrorCollector {
     std::string message_;
 };
 
+/// Reads what there is: fields may be missing, but none is given twice that is not repeated.
+Result<void> parse_partly(std::string_view text, const std::string& name, Message& message,
+                          TextFormat::ParseInfoTree& lines) {
+    FirstError errors(name, text);
+    TextFormat::Parser parser;
+    parser.RecordErrorsTo(&errors);
+    parser.WriteLocationsTo(&lines);
+    parser.AllowPartialMessage(true);  // Of what is missing Protobuf knows no line.
+    if (parser.ParseFromString(std::string(text), &message)) return {};
+    return fail(errors.message().empty() ? name + ": not valid Protobuf text" : errors.message());
+}
+
+/// The first required field that is not there.
+std::optional<std::string> missing_field(const Message& message) {
+    if (message.IsInitialized()) return std::nullopt;
+    std::vector<std::string> missing;
+    message.FindInitializationErrors(&missing);
+    return missing.front();
+}
+
 }  // namespace
 
 Result<void> merge_text(std::string_view text, const std::string& name, Message& message) {
-    FirstError errors(name, text);
-    TextFormat::ParseInfoTree places;
-    TextFormat::Parser parser;
-    parser.RecordErrorsTo(&errors);
-    parser.WriteLocationsTo(&places);
-    if (!parser.MergeFromString(std::string(text), &message)) {
-        return fail(errors.message().empty() ? name + ": not valid Protobuf text"
-                                             : errors.message());
+    const std::unique_ptr<Message> added(message.New());
+    TextFormat::ParseInfoTree lines;
+    if (auto ok = parse_partly(text, name, *added, lines); !ok) return ok;
+    message.MergeFrom(*added);
+    if (const auto field = missing_field(message)) {
+        return fail(name + ": field " + *field + " is missing");
     }
-    return check_ranges(message, name, &places);
+    return check_ranges(message, name, nullptr);
 }
 
-Result<void> parse_text(std::string_view text, const std::string& name, Message& message) {
-    message.Clear();
-    return merge_text(text, name, message);
+Result<void> parse_text(std::string_view text, const std::string& name, Message& message,
+                        FieldPlaces* places) {
+    TextFormat::ParseInfoTree lines;
+    if (auto ok = parse_partly(text, name, message, lines); !ok) return ok;
+    if (const auto field = missing_field(message)) {
+        FieldPlaces read;
+        read.note(message, name, lines);
+        return tl::unexpected(read.located({"field " + *field + " is missing", *field}, name));
+    }
+    if (places != nullptr) places->note(message, name, lines);
+    return check_ranges(message, name, &lines);
 }
 
-Result<void> read_text_file(const std::string& path, Message& message) {
+Result<void> read_text_file(const std::string& path, Message& message, FieldPlaces* places) {
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) return fail(path + ": is a folder");
     std::ifstream in(path, std::ios::binary);
@@ -84,7 +113,7 @@ Result<void> read_text_file(const std::string& path, Message& message) {
     if (!error && size > max_file_bytes) return fail(path + ": larger than 64 MiB");
     text << in.rdbuf();
     if (in.bad()) return fail(path + ": cannot read: " + std::strerror(errno));
-    return parse_text(text.str(), path, message);
+    return parse_text(text.str(), path, message, places);
 }
 
 Result<void> write_text_file(const std::string& path, const Message& message) {

@@ -42,17 +42,19 @@ Result<std::unique_ptr<Service>> RecorderService::make(const disk::RecorderConfi
     }
     const double rate = configuration.rate();
     if (rate > 0 && rate < 0.001) {
-        return fail("field rate must be 0 (as fast as possible) or 0.001 to 1000");
+        return fail_field("rate", " must be 0 (as fast as possible) or 0.001 to 1000");
     }
-    for (const auto& topic : configuration.topic()) {
+    for (int i = 0; i < configuration.topic_size(); ++i) {
+        const auto& topic = configuration.topic(i);
+        const std::string field = "topic[" + std::to_string(i) + "]";
         if (find_raw_topic(topic) != nullptr) {
             const auto refusal = replay_refusal(topic);
             if (configuration.replay().empty() || refusal.empty()) continue;
-            return fail("field topic: " + refusal);
+            return fail_field(field, ": " + refusal);
         }
         std::string names;
         for (const auto& known : raw_topics()) names += std::string(" ") + known.name;
-        return fail("field topic: there is no topic \"" + topic + "\"; there are" + names);
+        return fail_field(field, ": there is no topic \"" + topic + "\"; there are" + names);
     }
     return std::make_unique<RecorderService>(configuration);
 }

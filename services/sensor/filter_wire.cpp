@@ -24,8 +24,8 @@ Result<std::vector<FilterSetting>> filters_of(const disk::SensorConfig& config) 
     for (const auto& text : config.filter()) {
         auto setting = parse_filter(text);
         if (!setting) {
-            return fail("field filter[" + std::to_string(settings.size()) +
-                        "]: " + setting.error().message);
+            return fail_field("filter[" + std::to_string(settings.size()) + "]",
+                              ": " + setting.error().message);
         }
         settings.push_back(std::move(*setting));
     }

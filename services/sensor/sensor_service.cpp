@@ -21,6 +21,11 @@ std::string source_name(const disk::SensorConfig& config) {
     return config.has_scene() ? "scene " + config.scene() : config.recording();
 }
 
+/// An error of a chain of filters, which begins with its field.
+tl::unexpected<Error> of_field(const Error& error) {
+    return tl::unexpected<Error>(Error{"field " + error.message, error.field});
+}
+
 void refuse(v1::SensorReply& reply, v1::StatusCode code, const std::string& message) {
     reply.outcome().code(code);
     reply.outcome().message(bounded(message, 511));
@@ -30,13 +35,13 @@ void refuse(v1::SensorReply& reply, v1::StatusCode code, const std::string& mess
 
 Result<std::unique_ptr<Service>> SensorService::make(const disk::SensorConfig& config) {
     if (config.rate() != 0 && config.rate() < slowest_rate) {
-        return fail("field rate is " + std::to_string(config.rate()) +
-                    ", must be 0 or at least 0.001");
+        return fail_field("rate",
+                          " is " + std::to_string(config.rate()) + ", must be 0 or at least 0.001");
     }
     auto settings = filters_of(config);
     if (!settings) return tl::unexpected(settings.error());
     auto filters = FilterSwitch::make(std::move(*settings));
-    if (!filters) return fail("field " + filters.error().message);
+    if (!filters) return of_field(filters.error());
     const auto live = is_live(config);
     if (!live) return tl::unexpected(live.error());
     std::unique_ptr<SensorService> service(new SensorService(config, std::move(*filters)));
@@ -49,7 +54,7 @@ Result<std::unique_ptr<Service>> SensorService::make(const disk::SensorConfig& c
     auto source = open_source(config);
     if (!source) return tl::unexpected(source.error());
     if (auto fits = service->filters_->begin((*source)->geometry()); !fits) {
-        return fail("field " + fits.error().message);
+        return of_field(fits.error());
     }
     service->source_ = std::move(*source);
     return service;

@@ -27,7 +27,7 @@ Result<std::optional<Geometry>> geometry_of(const std::string& text) {
             return geometry;
         }
     }
-    return fail("field live_geometry is \"" + text + "\", must be WxH, as 640x480");
+    return fail_field("live_geometry", " is \"" + text + "\", must be WxH, as 640x480");
 }
 
 }  // namespace
@@ -37,8 +37,12 @@ Result<bool> is_live(const disk::SensorConfig& config) {
                       (config.live().empty() ? 0 : 1) + (config.driver().empty() ? 0 : 1);
     if (named != 1) return fail("exactly one of recording, scene, live and driver must be named");
     const bool live = !config.live().empty() || !config.driver().empty();
-    if (live && (config.loop() || config.start_s() != 0 || config.end_s() != 0)) {
-        return fail("fields loop, start_s and end_s go with a recording or a scene, not with live");
+    const char* of_others = config.loop()           ? "loop"
+                            : config.start_s() != 0 ? "start_s"
+                            : config.end_s() != 0   ? "end_s"
+                                                    : nullptr;
+    if (live && of_others != nullptr) {
+        return fail_field(of_others, " goes with a recording or a scene, not with a live source");
     }
     return live;
 }
@@ -51,7 +55,7 @@ Result<std::unique_ptr<LiveInput>> open_live(const disk::SensorConfig& config) {
         return std::move(*driver);
     }
     auto address = parse_live_address(config.live());
-    if (!address) return fail("field live: " + address.error().message);
+    if (!address) return fail_field("live", ": " + address.error().message);
     const auto geometry = geometry_of(config.live_geometry());
     if (!geometry) return tl::unexpected(geometry.error());
     std::string names;
@@ -63,7 +67,8 @@ Result<std::unique_ptr<LiveInput>> open_live(const disk::SensorConfig& config) {
         }
         names += (names.empty() ? "" : ", ") + std::string(format.name);
     }
-    return fail("field live_format is \"" + config.live_format() + "\", must be one of " + names);
+    return fail_field("live_format",
+                      " is \"" + config.live_format() + "\", must be one of " + names);
 }
 
 Result<std::unique_ptr<EventReader>> open_source(const disk::SensorConfig& config) {
@@ -71,10 +76,16 @@ Result<std::unique_ptr<EventReader>> open_source(const disk::SensorConfig& confi
     if (!live) return tl::unexpected(live.error());
     if (*live) return fail("a live source cannot be read as a recording");
     const auto range = range_of_seconds(config.start_s(), config.end_s());
-    if (!range) return fail("start_s, end_s: " + range.error().message);
-    auto source = config.scene().empty() ? open_events(config.recording())
-                                         : open_scene(config.scene(), config.seed());
-    if (!source) return source;
+    if (!range) {
+        return tl::unexpected<Error>(Error{"fields start_s, end_s: " + range.error().message,
+                                           config.end_s() != 0 ? "end_s" : "start_s"});
+    }
+    const bool is_scene = !config.scene().empty();
+    auto source =
+        is_scene ? open_scene(config.scene(), config.seed()) : open_events(config.recording());
+    if (!source) {
+        return fail_field(is_scene ? "scene" : "recording", ": " + source.error().message);
+    }
     return in_range(std::move(*source), *range);
 }
 

@@ -65,9 +65,9 @@ Result<Shape> read_csv(const std::filesystem::path& path) {
     return shape;
 }
 
-Result<ModelFile> read_text(const std::string& path) {
+Result<ModelFile> read_text(const std::string& path, FieldPlaces& places) {
     disk::Model message;
-    if (auto ok = read_text_file(path, message); !ok) return tl::unexpected(ok.error());
+    if (auto ok = read_text_file(path, message, &places); !ok) return tl::unexpected(ok.error());
     ModelFile model;
     model.shape.name = message.name();
     for (const auto& point : message.point()) {
@@ -79,7 +79,9 @@ Result<ModelFile> read_text(const std::string& path) {
     }
     model.comment = message.comment();
     if (message.has_origin_x_px() != message.has_origin_y_px()) {
-        return fail(path + ": origin_x_px and origin_y_px must come together");
+        const Error error{"origin_x_px and origin_y_px must come together",
+                          message.has_origin_x_px() ? "origin_x_px" : "origin_y_px"};
+        return tl::unexpected(places.located(error, path));
     }
     if (message.has_origin_x_px()) {
         model.origin_px = Eigen::Vector2d(message.origin_x_px(), message.origin_y_px());
@@ -92,16 +94,19 @@ Result<ModelFile> read_text(const std::string& path) {
 
 Result<ModelFile> read_model_file(const std::string& path) {
     ModelFile model;
+    FieldPlaces places;
     if (std::filesystem::path(path).extension() == ".csv") {
         auto shape = read_csv(path);
         if (!shape) return tl::unexpected(shape.error());
         model.shape = std::move(*shape);
     } else {
-        auto read = read_text(path);
+        auto read = read_text(path, places);
         if (!read) return read;
         model = std::move(*read);
     }
-    if (auto ok = check(model.shape); !ok) return fail(path + ": " + ok.error().message);
+    if (auto ok = check(model.shape); !ok) {
+        return tl::unexpected(places.located(ok.error(), path));
+    }
     model.shape = centred(std::move(model.shape));
     return model;
 }

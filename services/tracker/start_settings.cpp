@@ -19,6 +19,8 @@ bool is_of_strategies(const std::string& name) {
                        [&](const auto& parameter) { return parameter.name == name; });
 }
 
+std::string model_field(int index) { return "model[" + std::to_string(index) + "]"; }
+
 }  // namespace
 
 Result<Registration> configured_model(const std::string& argument, EstimatorKind estimator) {
@@ -50,37 +52,47 @@ Result<Tracker> configured_tracker(const disk::TrackerConfig& config,
     options.emit_updates = config.pose_tracks();
     options.next_object_id = next_object_id;
     options.reserved = usual_geometry;
+    if (const auto preset = find_preset(config.preset()); !preset) {
+        return fail_field("preset", ": " + preset.error().message);
+    }
     auto made = Tracker::create(options);
     if (!made) return fail(made.error().message);
     std::vector<NamedValue> of_strategy;
-    for (const auto& parameter : config.parameter()) {
-        const NamedValue value{parameter.name(), parameter.value()};
+    for (int i = 0; i < config.parameter_size(); ++i) {
+        const NamedValue value{config.parameter(i).name(), config.parameter(i).value()};
+        const std::span one(&value, 1);
+        CallResult<void> good;
         if (is_of_strategies(value.name)) {
             of_strategy.push_back(value);
-        } else if (auto set = made->set_parameters("", std::span(&value, 1)); !set) {
-            return fail("field parameter: " + set.error().message);
+            StrategyParameters tried = made->settings().strategy_parameters;
+            good = set(tried, one);
+        } else {
+            good = made->set_parameters("", one);
+        }
+        if (!good) {
+            return fail_field("parameter[" + std::to_string(i) + "]", ": " + good.error().message);
         }
     }
     // Where the configuration names no strategy, the preset's holds.
     const auto strategy =
         config.has_strategy() ? parse_strategy(config.strategy()) : made->settings().strategy;
     if (!strategy) {
-        return fail("field strategy: unknown \"" + config.strategy() + "\", must be " +
-                    strategy_names());
+        return fail_field("strategy",
+                          ": unknown \"" + config.strategy() + "\", must be " + strategy_names());
     }
-    if (auto set = made->set_strategy(*strategy, of_strategy); !set) {
-        return fail("field strategy: " + set.error().message);
+    if (auto ok = made->set_strategy(*strategy, of_strategy); !ok) {
+        return fail_field("strategy", ": " + ok.error().message);
     }
     return std::move(*made);
 }
 
 Result<std::vector<Registration>> configured_models(const disk::TrackerConfig& config) {
     const auto preset = find_preset(config.preset());
-    if (!preset) return fail("field preset: " + preset.error().message);
+    if (!preset) return fail_field("preset", ": " + preset.error().message);
     std::vector<Registration> registrations;
-    for (const auto& argument : config.model()) {
-        auto registration = configured_model(argument, (*preset)->estimator);
-        if (!registration) return fail("field model: " + registration.error().message);
+    for (int i = 0; i < config.model_size(); ++i) {
+        auto registration = configured_model(config.model(i), (*preset)->estimator);
+        if (!registration) return fail_field(model_field(i), ": " + registration.error().message);
         registrations.push_back(std::move(*registration));
     }
     return registrations;

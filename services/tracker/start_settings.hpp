@@ -12,7 +12,7 @@
 namespace pursuit::tracker {
 
 /// A tracker with the constants that the configuration states, and no object. Ids below
-/// `next_object_id` were used before. An error names the field.
+/// `next_object_id` were used before. An error is one of a field.
 Result<Tracker> configured_tracker(const disk::TrackerConfig& config, std::uint32_t next_object_id);
 
 /// The registration of PATH[@x,y,theta[,scale]] (model_file.hpp). Without "@…" an object begins
@@ -20,7 +20,8 @@ Result<Tracker> configured_tracker(const disk::TrackerConfig& config, std::uint3
 /// as a similarity, else as an isometry. An error names file and line.
 Result<Registration> configured_model(const std::string& argument, EstimatorKind estimator);
 
-/// The models that the configuration names, tracked by the preset's estimator.
+/// The models that the configuration names, tracked by the preset's estimator. An error is one of a
+/// field.
 Result<std::vector<Registration>> configured_models(const disk::TrackerConfig& config);
 
 }  // namespace pursuit::tracker

@@ -32,10 +32,11 @@ Result<std::unique_ptr<Service>> TrackerService::make(const disk::TrackerConfig&
     if (!models) return tl::unexpected(models.error());
     auto tried = configured_tracker(config, 1);
     if (!tried) return tl::unexpected(tried.error());
-    for (const auto& model : *models) {
-        const auto registered = tried->register_object(model);
+    for (std::size_t i = 0; i < models->size(); ++i) {
+        const auto registered = tried->register_object((*models)[i]);
         if (!registered) {
-            return fail("field model: " + model.shape.name + ": " + registered.error().message);
+            return fail_field("model[" + std::to_string(i) + "]",
+                              ": " + (*models)[i].shape.name + ": " + registered.error().message);
         }
     }
     return std::unique_ptr<Service>(new TrackerService(config, std::move(*models)));

@@ -33,6 +33,57 @@ class BadInput(SystemTest):
         self.assertEqual(done.returncode, 78, done.stderr)
         self.assertIn(f"{path}:1: field pose_rate_hz is 0, must be at least 1", done.stderr)
 
+    def ends_with_78(self, name, content, *options):
+        """The service refuses the configuration; gives what it says of it, and its path."""
+        path = self.path(name + ".textproto")
+        with open(path, "w") as file:
+            file.write(content)
+        done = subprocess.run([program("pursuit-" + name), "--config", path, *options],
+                              capture_output=True, text=True, timeout=10)
+        self.assertEqual(done.returncode, 78, done.stderr)
+        return done.stderr, path
+
+    def test_what_only_the_service_can_judge_is_told_with_file_line_and_field(self):
+        for name, content, line, field in (
+                ("tracker", 'name: "a"\nparameter { name: "gate_px" value: 5 }\n'
+                            'parameter {\n name: "no_such" value: 1 }\n', 3, "parameter[1]"),
+                ("tracker", '\nstrategy: "no_such"\n', 2, "strategy"),
+                ("tracker", '\npreset: "no_such"\n', 2, "preset"),
+                ("tracker", 'name: "a"\n\nmodel: "no_such.csv"\n', 3, "model[0]"),
+                ("sensor", 'scene: "overtake"\nfilter: "polarity"\nfilter: "no_such"\n', 3,
+                 "filter[1]"),
+                ("sensor", 'name: "a"\nrecording: "no_such.dat"\n', 2, "recording"),
+                ("sensor", 'name: "a"\nlive: "tcp://x"\n', 2, "live"),
+                ("recorder", 'output: "a.mcap"\ntopic: "pursuit/events"\ntopic: "no_such"\n', 3,
+                 "topic[1]")):
+            said, path = self.ends_with_78(name, content)
+            self.assertIn(f"{path}:{line}: field {field}", said)
+
+    def test_what_a_setting_has_broken_is_told_with_the_setting(self):
+        said, path = self.ends_with_78("tracker", 'strategy: "weighted"\n', "--set",
+                                       "strategy=no_such")
+        self.assertIn("--set strategy=no_such: field strategy", said)
+        self.assertNotIn(path, said)
+
+    def test_a_key_given_twice_and_one_that_is_missing_are_told_with_file_and_line(self):
+        for name in ("sensor", "tracker", "recorder"):
+            said, path = self.ends_with_78(name, 'name: "a"\n\nname: "b"\n')
+            self.assertIn(f"{path}:3:", said)
+            self.assertIn('"name" is specified multiple times', said)
+        said, path = self.ends_with_78("tracker", '\nparameter { name: "gate_px" }\n')
+        self.assertIn(f"{path}:2: field parameter[0].value is missing", said)
+
+    def test_offline_tracking_names_file_line_and_field_of_its_configuration(self):
+        path = self.path("tracker.textproto")
+        with open(path, "w") as file:
+            file.write('name: "a"\nstrategy: "no_such"\n')
+        arguments = ["track", "--events", "none.dat", "--poses", self.path("poses.csv"),
+                     "--config", path]
+        self.ctl(*arguments, code=78, dds=False)
+        self.assertIn(f"{path}:2: field strategy: unknown", self.ctl_err)
+        self.ctl(*arguments, "--strategy", "nor_this", code=78, dds=False)
+        self.assertIn("--strategy nor_this: field strategy: unknown", self.ctl_err)
+
     def test_the_sample_configurations_are_good(self):
         for service in ("tracker", "recorder", "sensor"):
             path = os.path.join(SOURCE, "deploy/config", service + ".textproto")

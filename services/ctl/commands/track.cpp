@@ -18,6 +18,7 @@ namespace {
 
 struct TrackOptions {
     OfflineTrack task;
+    FieldPlaces places;  ///< Of the task's configuration.
     std::string config;
     std::vector<std::string> settings;
     std::string strategy;
@@ -32,11 +33,21 @@ struct TrackOptions {
 Result<void> complete(TrackOptions& options) {
     auto& task = options.task;
     if (!options.config.empty()) {
-        if (auto ok = read_text_file(options.config, task.config); !ok) return ok;
+        if (auto ok = read_text_file(options.config, task.config, &options.places); !ok) return ok;
     }
-    if (auto ok = apply_settings(options.settings, task.config); !ok) return ok;
-    if (!options.preset.empty()) task.config.set_preset(options.preset);
-    if (!options.strategy.empty()) task.config.set_strategy(options.strategy);
+    if (auto ok = apply_settings(options.settings, task.config, &options.places); !ok) return ok;
+    if (!options.preset.empty()) {
+        task.config.set_preset(options.preset);
+        options.places.note("preset", "--preset " + options.preset);
+    }
+    if (!options.strategy.empty()) {
+        task.config.set_strategy(options.strategy);
+        options.places.note("strategy", "--strategy " + options.strategy);
+    }
+    int index = task.config.model_size();
+    for (const auto& model : task.models) {
+        options.places.note("model[" + std::to_string(index++) + "]", "--model " + model);
+    }
     if (!options.transform.empty()) {
         task.transform = tracker::parse_transform(options.transform);
         if (!task.transform) {
@@ -53,7 +64,7 @@ Result<void> complete(TrackOptions& options) {
     }
     // Before any event is read: the parts of a configuration that only a tracker can judge.
     if (const auto made = tracker::configured_tracker(task.config, 1); !made) {
-        return tl::unexpected(made.error());
+        return tl::unexpected(options.places.located(made.error(), options.config));
     }
     return {};
 }
@@ -84,7 +95,7 @@ int track(TrackOptions& options) {
     if (!geometry) return report(geometry.error());
     options.task.geometry = *geometry;
     const auto done = track_offline(options.task);
-    if (!done) return report(done.error());
+    if (!done) return report(options.places.located(done.error(), ""));
     const auto& counters = done->counters;
     std::fprintf(stderr, "%llu events in %.2f s (%.2f M/s), %llu used; %llu poses\n",
                  static_cast<unsigned long long>(counters.events_in), done->wall_s,

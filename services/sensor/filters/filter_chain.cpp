@@ -7,8 +7,8 @@ namespace pursuit::sensor {
 namespace {
 
 Error at(std::size_t index, const FilterSetting& setting, const Error& error) {
-    return {"filter[" + std::to_string(index) + "] " + setting.filter.substr(0, 64) + ": " +
-            error.message};
+    const std::string field = "filter[" + std::to_string(index) + "]";
+    return {field + " " + setting.filter.substr(0, 64) + ": " + error.message, field};
 }
 
 }  // namespace

@@ -92,16 +92,17 @@ Result<std::unique_ptr<DriverInput>> DriverInput::load(const std::string& path,
                                                        std::string argument,
                                                        std::chrono::milliseconds longest_wait) {
     void* library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    if (library == nullptr) return fail("field driver: " + std::string(::dlerror()));
+    if (library == nullptr) return fail_field("driver", ": " + std::string(::dlerror()));
     const auto entry =
         reinterpret_cast<const pursuit_driver* (*)()>(::dlsym(library, "pursuit_driver_entry"));
-    if (entry == nullptr) return fail("field driver: " + path + ": has no pursuit_driver_entry()");
+    if (entry == nullptr)
+        return fail_field("driver", ": " + path + ": has no pursuit_driver_entry()");
     const auto* driver = entry();
     if (driver == nullptr || driver->version != PURSUIT_DRIVER_VERSION || driver->run == nullptr) {
-        return fail("field driver: " + path + ": is for version " +
-                    std::to_string(driver == nullptr ? 0 : driver->version) +
-                    " of driver.h, this sensor has version " +
-                    std::to_string(PURSUIT_DRIVER_VERSION));
+        return fail_field("driver", ": " + path + ": is for version " +
+                                        std::to_string(driver == nullptr ? 0 : driver->version) +
+                                        " of driver.h, this sensor has version " +
+                                        std::to_string(PURSUIT_DRIVER_VERSION));
     }
     return std::unique_ptr<DriverInput>(
         new DriverInput(*driver, std::move(argument), longest_wait));

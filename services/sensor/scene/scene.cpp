@@ -17,15 +17,18 @@
 namespace pursuit::sensor {
 namespace {
 
-using Problem = std::optional<std::string>;
+using Problem = std::optional<Error>;
+
+Error problem(const std::string& field, const std::string& what) { return {field + what, field}; }
 
 constexpr std::uintmax_t max_file_bytes = 16ULL << 20;
 
 Problem interval_problem(const disk::Interval& interval, const std::string& where, double least,
                          double most) {
-    if (interval.low() > interval.high()) return where + ": low is above high";
+    if (interval.low() > interval.high()) return problem(where, ": low is above high");
     if (interval.low() < least || interval.high() > most) {
-        return where + ": must lie within " + std::to_string(least) + " … " + std::to_string(most);
+        return problem(where,
+                       ": must lie within " + std::to_string(least) + " … " + std::to_string(most));
     }
     return std::nullopt;
 }
@@ -42,11 +45,12 @@ Problem trajectory_problem(const disk::SceneTrajectory& t, const std::string& wh
         }
         if (target == Sine::TILT_X || target == Sine::TILT_Y) tilt = std::max(tilt, amplitude);
     }
-    if (grow > 0.9) return where + ".sine: scale amplitudes add up to more than 0.9";
-    if (tilt > 1.2) return where + ".sine: tilts by more than 1.2 rad";
+    if (grow > 0.9) return problem(where + ".sine", ": scale amplitudes add up to more than 0.9");
+    if (tilt > 1.2) return problem(where + ".sine", ": tilts by more than 1.2 rad");
     for (int i = 1; i < t.key_size(); ++i) {
         if (t.key(i).t_s() <= t.key(i - 1).t_s()) {
-            return where + ".key " + std::to_string(i) + ": t_s is not after the key before";
+            return problem(where + ".key[" + std::to_string(i) + "]",
+                           ": t_s is not after the key before");
         }
     }
     return std::nullopt;
@@ -98,23 +102,23 @@ Problem tilt_problem(const disk::SceneLayer& layer, const std::string& where) {
     for (const auto& key : t.key()) key_scale = std::max(key_scale, key.scale());
     grow *= (1 + layer.variation().size_share()) * (1 + layer.variation().scale_share());
     if (reach_px(layer) * t.scale() * key_scale * grow > 0.5 * t.focal_px()) {
-        return where + ": a tilted layer must be smaller than half of focal_px";
+        return problem(where, ": a tilted layer must be smaller than half of focal_px");
     }
     return std::nullopt;
 }
 
 Problem layer_problem(const disk::SceneLayer& layer, const std::string& where) {
     if (layer.polygon().empty() && !layer.has_shape() && !layer.has_clutter()) {
-        return where + ": has neither polygon, shape nor clutter";
+        return problem(where, ": has neither polygon, shape nor clutter");
     }
     bool contour = layer.has_shape();
     for (int i = 0; i < layer.polygon_size(); ++i) {
         const auto& xy = layer.polygon(i).xy_px();
-        const std::string name = where + ".polygon " + std::to_string(i);
-        if (xy.size() % 2 != 0) return name + ": xy_px has an odd number of values";
+        const std::string name = where + ".polygon[" + std::to_string(i) + "]";
+        if (xy.size() % 2 != 0) return problem(name, ": xy_px has an odd number of values");
         std::vector<Point> vertices;
         for (int k = 0; k < xy.size(); k += 2) vertices.emplace_back(xy[k], xy[k + 1]);
-        if (const auto error = polygon_error(vertices)) return name + " " + *error;
+        if (const auto error = polygon_error(vertices)) return problem(name, " " + *error);
         contour |= layer.polygon(i).contour();
     }
     if (layer.has_clutter()) {
@@ -130,13 +134,13 @@ Problem layer_problem(const disk::SceneLayer& layer, const std::string& where) {
     }
     if (!layer.track().empty() || layer.has_track()) {
         if (!plain_name(layer.track())) {
-            return where + ".track: must be letters, digits, _ and - only";
+            return problem(where + ".track", ": must be letters, digits, _ and - only");
         }
-        if (layer.has_clutter()) return where + ": clutter cannot be tracked";
-        if (!contour) return where + ": is tracked, but no polygon is its contour";
+        if (layer.has_clutter()) return problem(where, ": clutter cannot be tracked");
+        if (!contour) return problem(where, ": is tracked, but no polygon is its contour");
     }
     if (layer.has_to_s() && layer.to_s() <= layer.from_s()) {
-        return where + ".to_s: is not after from_s";
+        return problem(where + ".to_s", ": is not after from_s");
     }
     if (layer.variation().has_reflectance()) {
         const auto name = where + ".variation.reflectance";
@@ -147,20 +151,22 @@ Problem layer_problem(const disk::SceneLayer& layer, const std::string& where) {
 }
 
 Problem scene_problem(const disk::Scene& scene) {
-    if (!plain_name(scene.name())) return "name: must be letters, digits, _ and - only";
+    if (!plain_name(scene.name()))
+        return problem("name", ": must be letters, digits, _ and - only");
     std::set<std::string> names;
     for (int i = 0; i < scene.layer_size(); ++i) {
-        const std::string where = "layer " + std::to_string(i);
-        if (auto problem = layer_problem(scene.layer(i), where)) return problem;
+        const std::string where = "layer[" + std::to_string(i) + "]";
+        if (auto p = layer_problem(scene.layer(i), where)) return p;
         if (scene.layer(i).has_track() && !names.insert(scene.layer(i).track()).second) {
-            return where + ".track: \"" + scene.layer(i).track() + "\" is tracked twice";
+            return problem(where + ".track",
+                           ": \"" + scene.layer(i).track() + "\" is tracked twice");
         }
     }
     for (const auto& sine : scene.camera().sine()) {
         const auto t = sine.target();
         if (t != disk::SceneSine::X && t != disk::SceneSine::Y && t != disk::SceneSine::THETA &&
             t != disk::SceneSine::SCALE) {
-            return "camera.sine: a camera has X, Y, THETA and SCALE only";
+            return problem("camera.sine", ": a camera has X, Y, THETA and SCALE only");
         }
     }
     if (scene.has_background()) {
@@ -174,14 +180,15 @@ Problem scene_problem(const disk::Scene& scene) {
 Result<Scene> parse_scene(std::string_view text, const std::string& name,
                           const std::vector<std::string>& settings) {
     Scene scene;
-    if (auto ok = parse_text(text, name, scene.description_); !ok) {
+    FieldPlaces places;
+    if (auto ok = parse_text(text, name, scene.description_, &places); !ok) {
         return tl::unexpected(ok.error());
     }
-    if (auto ok = apply_settings(settings, scene.description_); !ok) {
+    if (auto ok = apply_settings(settings, scene.description_, &places); !ok) {
         return tl::unexpected(ok.error());
     }
-    if (const auto problem = scene_problem(scene.description_)) {
-        return fail(name + ": " + *problem + " (counted from 0)");
+    if (const auto wrong = scene_problem(scene.description_)) {
+        return tl::unexpected(places.located(*wrong, name));
     }
     return scene;
 }

@@ -12,14 +12,20 @@ bool is_name_character(char c) {
            c == '.' || c == '-';
 }
 
+/// `field`: as a file of the model names it (idl/model.proto).
+tl::unexpected<Error> in_model(const std::string& field, const std::string& message) {
+    return tl::unexpected<Error>(Error{message, field});
+}
+
 }  // namespace
 
 Result<void> check_name(std::string_view name) {
     if (name.empty() || name.size() > max_name_length) {
-        return fail("name: has " + std::to_string(name.size()) + " characters, not 1 to 63");
+        return in_model("name",
+                        "name: has " + std::to_string(name.size()) + " characters, not 1 to 63");
     }
     if (!std::all_of(name.begin(), name.end(), is_name_character)) {
-        return fail("name: has a character other than A-Z, a-z, 0-9, '_', '.' and '-'");
+        return in_model("name", "name: has a character other than A-Z, a-z, 0-9, '_', '.' and '-'");
     }
     return {};
 }
@@ -33,8 +39,9 @@ Result<void> check(const Shape& shape) {
     for (std::size_t i = 0; i < count; ++i) {
         const Eigen::Vector2f& point = shape.points_px[i];
         if (!point.allFinite() || point.cwiseAbs().maxCoeff() > max_shape_coordinate_px) {
-            return fail("points[" + std::to_string(i) +
-                        "]: a coordinate is not a number within -4096 to 4096 px");
+            return in_model("point[" + std::to_string(i) + "]",
+                            "points[" + std::to_string(i) +
+                                "]: a coordinate is not a number within -4096 to 4096 px");
         }
     }
     const Eigen::Vector2f first = shape.points_px.front();
@@ -50,9 +57,10 @@ Result<void> check(const Shape& shape) {
     for (std::size_t i = 0; i < shape.edges.size(); ++i) {
         const Edge& edge = shape.edges[i];
         if (edge.from >= count || edge.to >= count || edge.from == edge.to) {
-            return fail("edges[" + std::to_string(i) + "]: joins points " +
-                        std::to_string(edge.from) + " and " + std::to_string(edge.to) +
-                        ", not two different ones of 0 to " + std::to_string(count - 1));
+            return in_model("edge[" + std::to_string(i) + "]",
+                            "edges[" + std::to_string(i) + "]: joins points " +
+                                std::to_string(edge.from) + " and " + std::to_string(edge.to) +
+                                ", not two different ones of 0 to " + std::to_string(count - 1));
         }
     }
     return {};

@@ -55,6 +55,24 @@ TEST(ApplySettings, takes_a_whole_message_in_braces) {
     }
 }
 
+TEST(ApplySettings, replaces_what_is_there_but_gives_no_field_twice_itself) {
+    disk::TrackerConfig config;
+    ASSERT_TRUE(
+        apply_settings({"name=a", "name=b", "dds={domain: 7}", "dds={heartbeat_ms: 9}"}, config));
+    EXPECT_EQ(config.name(), "b");
+    EXPECT_EQ(config.dds().domain(), 7U);
+    EXPECT_EQ(config.dds().heartbeat_ms(), 9U);
+    EXPECT_FALSE(apply_settings({"dds={domain: 7 domain: 8}"}, config));
+}
+
+TEST(ApplySettings, names_the_field_that_a_message_in_braces_lacks) {
+    disk::TrackerConfig config;
+    const auto ok = apply_settings({"parameter={name: 'coast_s'}"}, config);
+    ASSERT_FALSE(ok);
+    EXPECT_EQ(ok.error().message,
+              "--set parameter={name: 'coast_s'}: field parameter[0].value is missing");
+}
+
 TEST(ApplySettings, names_the_setting_that_is_wrong) {
     disk::TrackerConfig config;
     for (const auto* wrong :

@@ -6,6 +6,7 @@
 
 #include "config.pb.h"
 #include "model.pb.h"
+#include "scene.pb.h"
 
 namespace pursuit {
 namespace {
@@ -60,9 +61,33 @@ TEST(ParseText, refuses_more_entries_than_the_schema_allows) {
     EXPECT_THAT(ok.error().message, HasSubstr("field point has 4097 entries"));
 }
 
-TEST(ParseText, refuses_a_missing_required_field) {
+TEST(ParseText, names_file_line_and_field_of_a_missing_required_field) {
     disk::Model model;
-    EXPECT_FALSE(parse_text("point { x_px: 1 }", "m", model));
+    const auto error_of = [&](const std::string& text) {
+        return parse_text(text, "m", model).error().message;
+    };
+    EXPECT_EQ(error_of("name: 'm'\npoint { x_px: 1 y_px: 2 }\npoint {\n x_px: 1 }"),
+              "m:3: field point[1].y_px is missing");
+    EXPECT_EQ(error_of("point { x_px: 1 y_px: 2 }"), "m: field name is missing");
+}
+
+TEST(ParseText, refuses_a_field_given_twice_that_is_not_repeated) {
+    disk::TrackerConfig config;
+    for (const auto* twice : {"name: 'a'\nname: 'b'", "dds { domain: 1 }\ndds { domain: 2 }",
+                              "dds { domain: 1\n domain: 2 }"}) {
+        const auto ok = parse_text(twice, "t", config);
+        ASSERT_FALSE(ok) << twice;
+        EXPECT_THAT(ok.error().message, HasSubstr("t:2:"));
+        EXPECT_THAT(ok.error().message, HasSubstr("is specified multiple times"));
+    }
+}
+
+TEST(ParseText, names_the_line_of_a_value_out_of_range_in_a_list_in_brackets) {
+    disk::Scene scene;
+    const auto ok = parse_text("name: 's'\nlayer { polygon { xy_px: [1, 2e5] } }", "s", scene);
+    ASSERT_FALSE(ok);
+    EXPECT_EQ(ok.error().message,
+              "s:2: field layer.polygon.xy_px is 200000, must be at most 100000");
 }
 
 TEST(ReadTextFile, says_which_file_is_missing) {

@@ -81,6 +81,24 @@ TEST(ModelFile, names_file_line_and_cause_of_what_is_wrong) {
                 HasSubstr("none.csv: cannot open"));
 }
 
+TEST(ModelFile, names_the_line_of_what_a_shape_may_not_be) {
+    const test::TemporaryFolder folder;
+    const auto error_of = [&](const std::string& more) {
+        const auto path = folder.file(
+            "a.model.textproto",
+            "point { x_px: 0 y_px: 0 }\npoint { x_px: 9 y_px: 0 }\npoint { x_px: 0 y_px: 9 }\n" +
+                more);
+        const auto model = read_model_file(path);
+        return model ? "" : model.error().message.substr(path.size());
+    };
+    EXPECT_THAT(error_of("name: 'a'\nedge { from: 0 to: 1 }\nedge {\nfrom: 0 to: 3 }"),
+                testing::StartsWith(":6: edges[1]: joins points 0 and 3"));
+    EXPECT_THAT(error_of("\nname: 'a b'"), testing::StartsWith(":5: name: has a character"));
+    EXPECT_THAT(error_of("name: 'a'\norigin_y_px: 1"),
+                testing::StartsWith(":5: origin_x_px and origin_y_px must come"));
+    EXPECT_EQ(error_of("name: 'a'\npoint { x_px: 1 }"), ":5: field point[3].y_px is missing");
+}
+
 TEST(ModelArgument, is_a_path_with_or_without_a_start) {
     const auto plain = parse_model_argument("a/b.csv");
     ASSERT_TRUE(plain);

@@ -128,24 +128,35 @@ TEST(ParseScene, names_file_and_line_of_an_unknown_field) {
     EXPECT_THAT(error_of("name: \"s\"\nlayers { }"), HasSubstr("s.textproto:2:"));
 }
 
+TEST(ParseScene, names_the_line_of_what_cannot_be_simulated_or_the_setting) {
+    const std::string two = "name: \"s\"\nlayer { " + square + "}\nlayer { " + square;
+    EXPECT_THAT(error_of(two + "\nto_s: 0 }"), HasSubstr("s.textproto:4: layer[1].to_s: "));
+    EXPECT_THAT(error_of(two + "\npolygon { xy_px: [0, 0] } }"),
+                HasSubstr("s.textproto:4: layer[1].polygon[1] "));
+    EXPECT_THAT(error_of(two + "\ntrack: \"a/b\" }"), HasSubstr("s.textproto:4: layer[1].track: "));
+    const auto set = parse_scene(two + "}", "s.textproto", {"layer[1].to_s=0"});
+    ASSERT_FALSE(set);
+    EXPECT_THAT(set.error().message, testing::StartsWith("--set layer[1].to_s=0: layer[1].to_s: "));
+}
+
 TEST(ParseScene, refuses_what_cannot_be_simulated_and_says_where) {
     EXPECT_THAT(error_of("name: \"a b\""), HasSubstr("name"));
-    EXPECT_THAT(error_of(layer_of + "}"), HasSubstr("layer 0"));
+    EXPECT_THAT(error_of(layer_of + "}"), HasSubstr("layer[0]"));
     EXPECT_THAT(error_of(layer_of + "polygon { xy_px: [0, 0, 1] } }"), HasSubstr("odd number"));
     EXPECT_THAT(error_of(layer_of + "polygon { xy_px: [0, 0, 9, 0] } }"), HasSubstr("2 corners"));
     EXPECT_THAT(error_of(layer_of + "polygon { xy_px: [0, 0, 9, 0, 0, 0] } }"),
-                HasSubstr("layer 0.polygon 0"));
+                HasSubstr("layer[0].polygon[0]"));
     EXPECT_THAT(error_of(layer_of + "polygon { xy_px: [0, 0, 9, 9, 9, 0, 0, 9] } }"),
                 HasSubstr("crosses itself"));
     EXPECT_THAT(error_of(layer_of + "polygon { xy_px: [0, 0, 5, 0, 9, 0] } }"),
-                HasSubstr("layer 0.polygon 0"));
+                HasSubstr("layer[0].polygon[0]"));
     EXPECT_THAT(error_of(layer_of + "track: \"a/b\" " + square + "}"), HasSubstr("track"));
     EXPECT_THAT(error_of(layer_of + "track: \"\" " + square + "}"), HasSubstr("track"));
     EXPECT_THAT(
         error_of(layer_of + "track: \"a\" " + square + "} layer { track: \"a\" " + square + "}"),
-        HasSubstr("layer 1.track"));
+        HasSubstr("layer[1].track"));
     EXPECT_THAT(error_of(layer_of + square + "trajectory { key { t_s: 1 } key { t_s: 1 } } }"),
-                HasSubstr("key 1"));
+                HasSubstr("key[1]"));
     EXPECT_THAT(error_of(layer_of + square +
                          "trajectory { sine { target: SCALE amplitude: 1 frequency_hz: 1 } } }"),
                 HasSubstr("scale"));
