@@ -2,6 +2,7 @@
 #include "services/sensor/event_publisher.hpp"
 
 #include <chrono>
+#include <sstream>
 #include <vector>
 
 #include "services/sensor/source.hpp"
@@ -10,6 +11,17 @@ namespace pursuit::sensor {
 namespace {
 
 constexpr std::size_t events_per_read = 65536;
+
+std::string range_text(const disk::SensorConfig& config) {
+    std::ostringstream text;
+    text << "start_s " << config.start_s() << " to ";
+    if (config.end_s() == 0) {
+        text << "its end";
+    } else {
+        text << "end_s " << config.end_s();
+    }
+    return text.str();
+}
 
 /// After the last packet, so that leaving does not cut off what is being sent again.
 const eprosima::fastrtps::Duration_t farewell_time{1, 0};
@@ -90,12 +102,19 @@ bool EventPublisher::send_stream(EventReader& source, bool& source_failed) {
         source_failed = true;
         return true;
     }
+    // A source may have no events, but who names a part of it expects some there.
+    bool owes_events = config_.start_s() != 0 || config_.end_s() != 0;
     std::vector<Event> events(events_per_read);
     std::vector<Event> exposures(source.has_exposures() ? events_per_read : 0);
     for (;;) {
         const auto batch = source.read(events, exposures);
         if (!batch) {
             health_.error(batch.error().message);
+            source_failed = true;
+        }
+        if (batch && batch->events + batch->exposures > 0) owes_events = false;
+        if (batch && batch->at_end && owes_events) {
+            health_.error(source_name(config_) + ": no event lies within " + range_text(config_));
             source_failed = true;
         }
         if (!batch || batch->at_end) return sender_.end();

@@ -15,12 +15,6 @@ constexpr std::int64_t status_period_ns = 1'000'000'000;
 constexpr double slowest_rate = 0.001;
 constexpr double fastest_rate = 1000;
 
-std::string source_name(const disk::SensorConfig& config) {
-    if (!config.live().empty()) return config.live() == "-" ? "standard input" : config.live();
-    if (!config.driver().empty()) return "driver " + config.driver();
-    return config.has_scene() ? "scene " + config.scene() : config.recording();
-}
-
 /// An error of a chain of filters, which begins with its field.
 tl::unexpected<Error> of_field(const Error& error) {
     return tl::unexpected<Error>(Error{"field " + error.message, error.field});

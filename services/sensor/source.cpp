@@ -32,6 +32,12 @@ Result<std::optional<Geometry>> geometry_of(const std::string& text) {
 
 }  // namespace
 
+std::string source_name(const disk::SensorConfig& config) {
+    if (!config.live().empty()) return config.live() == "-" ? "standard input" : config.live();
+    if (!config.driver().empty()) return "driver " + config.driver();
+    return config.has_scene() ? "scene " + config.scene() : config.recording();
+}
+
 Result<bool> is_live(const disk::SensorConfig& config) {
     const int named = (config.recording().empty() ? 0 : 1) + (config.scene().empty() ? 0 : 1) +
                       (config.live().empty() ? 0 : 1) + (config.driver().empty() ? 0 : 1);

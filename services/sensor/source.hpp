@@ -2,12 +2,16 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "config.pb.h"
 #include "services/sensor/formats/event_reader.hpp"
 #include "services/sensor/live/live_input.hpp"
 
 namespace pursuit::sensor {
+
+/// What a configuration names, for people.
+std::string source_name(const disk::SensorConfig& config);
 
 /// Whether a configuration names a live source. An error where not exactly one source is named, or
 /// a live one with what only the others have: loop, start_s, end_s.

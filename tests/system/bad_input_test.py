@@ -84,6 +84,24 @@ class BadInput(SystemTest):
         self.ctl(*arguments, "--strategy", "nor_this", code=78, dds=False)
         self.assertIn("--strategy nor_this: field strategy: unknown", self.ctl_err)
 
+    def test_a_range_without_an_event_ends_with_1_and_says_so(self):
+        events = self.path("events.txt")
+        with open(events, "w") as file:
+            file.write("0.1 1 1 1\n0.2 1 1 1\n")
+        for settings, text in (({"start_s": 50}, "start_s 50 to its end"),
+                               ({"start_s": 0.11, "end_s": 0.12}, "start_s 0.11 to end_s 0.12")):
+            sensor = self.service("sensor", recording=events, rate=0, **settings)
+            self.assertEqual(sensor.wait(10), 1)
+            self.assertIn(f"{events}: no event lies within {text}", sensor.err())
+        sensor = self.service("sensor", recording=events, rate=0, start_s=0.15)
+        self.assertEqual(sensor.wait(10), 0)
+
+    def test_a_live_source_that_is_not_there_is_named_when_the_sensor_is_ready(self):
+        path = self.path("not_there")
+        sensor = self.service("sensor", live=path)
+        self.eventually(lambda: "ready: " in sensor.err(), what="the sensor says that it is ready")
+        self.assertRegex(sensor.err(), f"ready: waiting for .*{path}")
+
     def test_the_sample_configurations_are_good(self):
         for service in ("tracker", "recorder", "sensor"):
             path = os.path.join(SOURCE, "deploy/config", service + ".textproto")
