@@ -93,6 +93,17 @@ Result<std::vector<Registration>> configured_models(const disk::TrackerConfig& c
     for (int i = 0; i < config.model_size(); ++i) {
         auto registration = configured_model(config.model(i), (*preset)->estimator);
         if (!registration) return fail_field(model_field(i), ": " + registration.error().message);
+        const auto same = std::find_if(
+            registrations.begin(), registrations.end(),
+            [&](const auto& other) { return other.shape.name == registration->shape.name; });
+        if (same != registrations.end()) {
+            const auto first = static_cast<int>(same - registrations.begin());
+            return fail_field(model_field(i),
+                              ": two models are named " + same->shape.name + ", " +
+                                  config.model(first) + " and " + config.model(i) +
+                                  ": give one another name, by its field name, or a table by the "
+                                  "name of its file");
+        }
         registrations.push_back(std::move(*registration));
     }
     return registrations;

@@ -21,7 +21,7 @@ Result<Tracker> configured_tracker(const disk::TrackerConfig& config, std::uint3
 Result<Registration> configured_model(const std::string& argument, EstimatorKind estimator);
 
 /// The models that the configuration names, tracked by the preset's estimator. An error is one of a
-/// field.
+/// field; two models of one name are one, whatever their starts: a name is one object.
 Result<std::vector<Registration>> configured_models(const disk::TrackerConfig& config);
 
 }  // namespace pursuit::tracker

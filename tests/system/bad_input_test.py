@@ -84,6 +84,21 @@ class BadInput(SystemTest):
         self.ctl(*arguments, "--strategy", "nor_this", code=78, dds=False)
         self.assertIn("--strategy nor_this: field strategy: unknown", self.ctl_err)
 
+    def test_two_objects_of_one_name_are_refused_by_the_tracker_and_offline(self):
+        model = self.path("van.csv")
+        with open(model, "w") as file:
+            file.write("x_px,y_px\n0,0\n20,0\n0,20\n")
+        events = self.path("events.txt")
+        with open(events, "w") as file:
+            file.write("0.1 1 1 1\n")
+        first, second = model + "@36,138,0", model + "@136,138,0"
+        both = f"two models are named van, {first} and {second}"
+        said, path = self.ends_with_78("tracker", f'model: "{first}"\nmodel: "{second}"\n')
+        self.assertIn(f"{path}:2: field model[1]: {both}", said)
+        self.ctl("track", "--events", events, "--poses", self.path("poses.csv"),
+                 "--model", first, "--model", second, code=1, dds=False)
+        self.assertIn(both, self.ctl_err)
+
     def test_a_range_without_an_event_ends_with_1_and_says_so(self):
         events = self.path("events.txt")
         with open(events, "w") as file:

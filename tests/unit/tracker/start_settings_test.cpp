@@ -9,6 +9,8 @@
 namespace pursuit::tracker {
 namespace {
 
+using testing::AllOf;
+using testing::HasSubstr;
 using testing::StartsWith;
 
 TEST(ConfiguredTracker, names_the_field_that_it_cannot_take) {
@@ -45,6 +47,27 @@ TEST(ConfiguredModels, names_the_entry_that_it_cannot_read) {
     ASSERT_FALSE(models);
     EXPECT_EQ(models.error().field, "model[1]");
     EXPECT_THAT(models.error().message, StartsWith("field model[1]: " + folder.path("none.csv")));
+}
+
+TEST(ConfiguredModels, refuses_two_of_one_name_and_names_both) {
+    const test::TemporaryFolder folder;
+    const std::string triangle = "x_px,y_px\n0,0\n9,0\n0,9\n";
+    const auto van = folder.file("van.csv", triangle);
+    const auto car = folder.file("car.csv", triangle);
+    for (const std::string& second :
+         {van + "@136,138,0", van + "@36,138,0", folder.file("model_van.csv", triangle)}) {
+        disk::TrackerConfig config;
+        config.add_model(van + "@36,138,0");
+        config.add_model(car + "@10,10,0");
+        EXPECT_TRUE(configured_models(config));
+        config.add_model(second);
+        const auto models = configured_models(config);
+        ASSERT_FALSE(models);
+        EXPECT_EQ(models.error().field, "model[2]");
+        EXPECT_THAT(models.error().message,
+                    AllOf(HasSubstr("two models are named van, " + van + "@36,138,0 and " + second),
+                          HasSubstr("another name")));
+    }
 }
 
 }  // namespace
