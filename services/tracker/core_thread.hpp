@@ -7,13 +7,11 @@
 #include <mutex>
 #include <thread>
 
+#include "services/tracker/packet_intake.hpp"
 #include "services/tracker/store_writer.hpp"
 #include "services/tracker/tracker_session.hpp"
-#include "services/tracker/work_queue.hpp"
 
 namespace pursuit::tracker {
-
-using TrackerQueue = WorkQueue<v1::EventPacket, v1::TrackerRequest>;
 
 /// The thread that runs a session: takes work from the queue, gives replies away, and hands the
 /// state to the store after each change and figures to whoever asked.

@@ -25,10 +25,6 @@ PacketFate StreamFollower::begin(const PacketHeader& packet) {
 }
 
 PacketFate StreamFollower::take(const PacketHeader& packet) {
-    if (packet.sensor_id != sensor_id_) {
-        ++counters_.of_another_sensor;
-        return PacketFate::of_another_sensor;
-    }
     if (!is_usable(packet.geometry)) {
         ++counters_.bad_geometry;
         return PacketFate::bad_geometry;

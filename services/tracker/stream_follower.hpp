@@ -10,7 +10,6 @@ namespace pursuit::tracker {
 
 /// What a packet says about itself (EventPacket, idl/events.idl).
 struct PacketHeader {
-    std::uint32_t sensor_id = 0;
     std::uint64_t stream_id = 0;
     std::uint64_t sequence_number = 0;
     std::int64_t base_time_us = 0;
@@ -23,10 +22,9 @@ struct PacketHeader {
 enum class PacketFate {
     begins_stream,  ///< Event time begins anew with it.
     continues_stream,
-    of_another_sensor,  ///< This and all below: not to be used.
-    of_another_stream,
-    old,           ///< A sequence number at or before the last one's.
-    bad_geometry,  ///< No pixels, too many, or others than the stream began with.
+    of_another_stream,  ///< This and all below: not to be used.
+    old,                ///< A sequence number at or before the last one's.
+    bad_geometry,       ///< No pixels, too many, or others than the stream began with.
 };
 
 /// Running totals.
@@ -35,13 +33,12 @@ struct StreamCounters {
     std::uint64_t streams = 0;
     std::uint64_t gaps = 0;
     std::uint64_t packets_missed = 0;  ///< In those gaps.
-    std::uint64_t of_another_sensor = 0;
     std::uint64_t of_another_stream = 0;
     std::uint64_t old = 0;
     std::uint64_t bad_geometry = 0;
 };
 
-/// Decides packet by packet which stream of a sensor is followed.
+/// Decides packet by packet which stream of the sensor is followed.
 ///
 ///   stream id never seen ──────────────────────────────► begins; the one before is left
 ///   id of a left stream ── the followed one goes on ───► of_another_stream
@@ -56,8 +53,6 @@ struct StreamCounters {
 /// the packets say alone, never by the clock. One thread.
 class StreamFollower {
  public:
-    explicit StreamFollower(std::uint32_t sensor_id) : sensor_id_(sensor_id) {}
-
     PacketFate take(const PacketHeader& packet);
 
     [[nodiscard]] const StreamCounters& counters() const { return counters_; }
@@ -72,7 +67,6 @@ class StreamFollower {
     PacketFate begin(const PacketHeader& packet);
     [[nodiscard]] bool was_left(std::uint64_t stream_id) const;
 
-    std::uint32_t sensor_id_;
     bool following_ = false;
     PacketHeader last_;
     std::deque<std::uint64_t> left_;  // streams followed before

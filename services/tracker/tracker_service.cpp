@@ -118,21 +118,12 @@ Result<void> TrackerService::open_readers() {
     requests_ = std::move(*requests);
     auto events = Reader<v1::EventPacket>::create(
         *participant_, topic::events,
-        [this](v1::EventPacket& packet, const auto&) { receive(packet); });
+        [this](v1::EventPacket& packet, const auto&) {
+            take_in(packet, identity_.sensor_id, clock_.steady_ns(), queue_, intake_);
+        });
     if (!events) return tl::unexpected(events.error());
     events_ = std::move(*events);
     return {};
-}
-
-void TrackerService::receive(v1::EventPacket& packet) {
-    // Others do not take the room of our own.
-    if (packet.sensor_id() == identity_.sensor_id) {
-        intake_.last_packet_steady_ns = clock_.steady_ns();
-    }
-    const auto dropped = queue_.push_packet(std::move(packet));
-    if (!dropped) return;
-    intake_.dropped_packets.fetch_add(1);
-    intake_.dropped_events.fetch_add(dropped->words().size());
 }
 
 void TrackerService::receive(v1::TrackerRequest& request, Server& server) {

@@ -43,7 +43,6 @@ class TrackerService final : public Service {
 
     Result<void> open_writers();
     Result<void> open_readers();
-    void receive(v1::EventPacket& packet);
     void receive(v1::TrackerRequest& request, Server& server);
     v1::TrackerStatus status(const SessionFigures& figures);
     void publish_status();

@@ -13,9 +13,8 @@ namespace {
 constexpr std::int64_t busy_window_us = 1'000'000;
 
 PacketHeader header_of(const v1::EventPacket& packet) {
-    return {packet.sensor_id(),    packet.stream_id(),    packet.sequence_number(),
-            packet.base_time_us(), packet.host_time_ns(), {packet.width(), packet.height()},
-            packet.end_of_stream()};
+    return {packet.stream_id(),    packet.sequence_number(),          packet.base_time_us(),
+            packet.host_time_ns(), {packet.width(), packet.height()}, packet.end_of_stream()};
 }
 
 /// `pose` after `dt_s` at constant velocity about the model's centre.
@@ -53,7 +52,6 @@ TrackerSession::TrackerSession(Tracker tracker, ServiceIdentity identity,
                    outputs_.error("a call that waited for its time is refused: " +
                                   answer.outcome.message().to_string());
                }),
-      follower_(identity_.sensor_id),
       publisher_(identity_.sensor_id, clock, outputs_.pose, outputs_.track, outputs_.loss),
       board_(identity_, outputs_.model, outputs_.settings) {
     if (stored) restore(*stored);
@@ -120,7 +118,6 @@ void TrackerSession::resume(const PacketHeader& packet) {
 void TrackerSession::take(v1::EventPacket& packet) {
     const PacketHeader header = header_of(packet);
     switch (follower_.take(header)) {
-        case PacketFate::of_another_sensor:
         case PacketFate::of_another_stream:
         case PacketFate::old:
             return;

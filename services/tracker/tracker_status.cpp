@@ -12,7 +12,8 @@ constexpr std::int64_t silence_ns = 100'000'000;
 
 bool is_silent(const SessionFigures& figures, const IntakeCounters& intake,
                std::int64_t steady_ns) {
-    return figures.stream_open && steady_ns - intake.last_packet_steady_ns > silence_ns;
+    return figures.stream_open && !intake.stream_ended &&
+           steady_ns - intake.last_packet_steady_ns > silence_ns;
 }
 
 v1::TrackerStatus tracker_status(const ServiceIdentity& identity, const SessionFigures& figures,
@@ -44,7 +45,7 @@ v1::TrackerStatus tracker_status(const ServiceIdentity& identity, const SessionF
     // Not events of this stream, and not among the total: packets and requests.
     count("packets.queue_full", intake.dropped_packets);
     count("packets.old", figures.stream.old);
-    count("packets.other_sensor", figures.stream.of_another_sensor);
+    count("packets.other_sensor", intake.of_another_sensor);
     count("packets.other_stream", figures.stream.of_another_stream);
     count("packets.other_geometry", figures.stream.bad_geometry);
     count("requests.queue_full", intake.refused_requests);

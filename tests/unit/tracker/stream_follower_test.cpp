@@ -10,7 +10,6 @@ constexpr std::int64_t second_ns = 1'000'000'000;
 
 PacketHeader packet(std::uint64_t stream_id, std::uint64_t sequence_number) {
     PacketHeader header;
-    header.sensor_id = 1;
     header.stream_id = stream_id;
     header.sequence_number = sequence_number;
     header.base_time_us = static_cast<std::int64_t>(sequence_number) * 1000;
@@ -20,7 +19,7 @@ PacketHeader packet(std::uint64_t stream_id, std::uint64_t sequence_number) {
 }
 
 TEST(StreamFollower, begins_with_the_first_packet_and_continues_with_the_next) {
-    StreamFollower follower(1);
+    StreamFollower follower;
     EXPECT_FALSE(follower.is_open());
     EXPECT_EQ(follower.take(packet(7, 5)), PacketFate::begins_stream);
     EXPECT_EQ(follower.take(packet(7, 6)), PacketFate::continues_stream);
@@ -31,7 +30,7 @@ TEST(StreamFollower, begins_with_the_first_packet_and_continues_with_the_next) {
 }
 
 TEST(StreamFollower, counts_a_gap_and_the_packets_in_it) {
-    StreamFollower follower(1);
+    StreamFollower follower;
     follower.take(packet(7, 1));
     EXPECT_EQ(follower.take(packet(7, 5)), PacketFate::continues_stream);
     EXPECT_EQ(follower.counters().gaps, 1U);
@@ -39,7 +38,7 @@ TEST(StreamFollower, counts_a_gap_and_the_packets_in_it) {
 }
 
 TEST(StreamFollower, leaves_a_duplicate_and_an_older_packet_and_counts_them) {
-    StreamFollower follower(1);
+    StreamFollower follower;
     follower.take(packet(7, 4));
     EXPECT_EQ(follower.take(packet(7, 4)), PacketFate::old);
     EXPECT_EQ(follower.take(packet(7, 3)), PacketFate::old);
@@ -48,17 +47,8 @@ TEST(StreamFollower, leaves_a_duplicate_and_an_older_packet_and_counts_them) {
     EXPECT_EQ(follower.counters().gaps, 0U);
 }
 
-TEST(StreamFollower, leaves_packets_of_another_sensor) {
-    StreamFollower follower(1);
-    auto other = packet(7, 1);
-    other.sensor_id = 2;
-    EXPECT_EQ(follower.take(other), PacketFate::of_another_sensor);
-    EXPECT_FALSE(follower.is_open());
-    EXPECT_EQ(follower.counters().of_another_sensor, 1U);
-}
-
 TEST(StreamFollower, begins_a_new_stream_and_leaves_late_packets_of_the_one_before) {
-    StreamFollower follower(1);
+    StreamFollower follower;
     follower.take(packet(7, 1));
     EXPECT_EQ(follower.take(packet(8, 1)), PacketFate::begins_stream);
     EXPECT_EQ(follower.take(packet(7, 2)), PacketFate::of_another_stream);
@@ -67,7 +57,7 @@ TEST(StreamFollower, begins_a_new_stream_and_leaves_late_packets_of_the_one_befo
 }
 
 TEST(StreamFollower, follows_the_newest_of_two_live_streams_all_the_time) {
-    StreamFollower follower(1);
+    StreamFollower follower;
     follower.take(packet(7, 1));
     follower.take(packet(8, 1));
     for (std::uint64_t i = 2; i < 2000; ++i) {
@@ -78,7 +68,7 @@ TEST(StreamFollower, follows_the_newest_of_two_live_streams_all_the_time) {
 }
 
 TEST(StreamFollower, goes_back_to_a_left_stream_when_the_followed_one_has_ended) {
-    StreamFollower follower(1);
+    StreamFollower follower;
     follower.take(packet(7, 1));
     follower.take(packet(8, 1));
     auto last = packet(8, 2);
@@ -89,7 +79,7 @@ TEST(StreamFollower, goes_back_to_a_left_stream_when_the_followed_one_has_ended)
 }
 
 TEST(StreamFollower, goes_back_to_a_left_stream_when_the_followed_one_is_silent_for_a_second) {
-    StreamFollower follower(1);
+    StreamFollower follower;
     follower.take(packet(7, 1));
     follower.take(packet(8, 1));
     auto later = packet(7, 2);
@@ -100,7 +90,7 @@ TEST(StreamFollower, goes_back_to_a_left_stream_when_the_followed_one_is_silent_
 }
 
 TEST(StreamFollower, begins_anew_when_a_recording_is_played_again_before_or_after_its_end) {
-    StreamFollower follower(1);
+    StreamFollower follower;
     for (std::uint64_t i = 1; i < 10; ++i) follower.take(packet(7, i));
     auto again = packet(7, 1);
     again.host_time_ns += second_ns;
@@ -115,7 +105,7 @@ TEST(StreamFollower, begins_anew_when_a_recording_is_played_again_before_or_afte
 }
 
 TEST(StreamFollower, refuses_a_packet_without_pixels_or_with_too_many_and_one_of_another_geometry) {
-    StreamFollower follower(1);
+    StreamFollower follower;
     for (const Geometry unusable_one : {Geometry{0, 240}, Geometry{65'535, 65'535}}) {
         auto unusable = packet(7, 1);
         unusable.geometry = unusable_one;

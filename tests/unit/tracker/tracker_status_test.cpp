@@ -54,5 +54,21 @@ TEST(TrackerStatus, of_an_open_stream_without_packets_for_100_ms_is_a_fault) {
     EXPECT_FALSE(is_silent(figures, intake, 100'000'002));
 }
 
+TEST(TrackerStatus, of_a_stream_that_has_ended_is_no_fault_while_the_tracker_is_behind) {
+    SessionFigures figures;
+    figures.stream_open = true;  // its end still waits
+    TrackerQueue queue(4, 1);
+    IntakeCounters intake;
+    v1::EventPacket last;
+    last.sensor_id(1);
+    last.end_of_stream(true);
+    take_in(last, 1, 1, queue, intake);
+    EXPECT_FALSE(is_silent(figures, intake, 100'000'002));
+    v1::EventPacket of_the_next_stream;
+    of_the_next_stream.sensor_id(1);
+    take_in(of_the_next_stream, 1, 2, queue, intake);
+    EXPECT_TRUE(is_silent(figures, intake, 100'000'003));
+}
+
 }  // namespace
 }  // namespace pursuit::tracker
