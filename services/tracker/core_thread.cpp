@@ -64,17 +64,14 @@ void CoreThread::serve_wishes() {
         figures_ = std::move(now);
     }
     if (!store_wanted_.exchange(false) || !store_.keeps()) return;
-    const SessionFigures now = session_->figures();
-    if (now.last_t_us == stored_t_us_ && now.stream_id == stored_stream_id_) return;
-    post_state();
+    if (session_->stored_moment() != stored_moment_) post_state();
 }
 
 void CoreThread::post_state() {
     stored_revision_ = session_->revision();
     if (!store_.keeps()) return;
     StoredState state = session_->stored_state();
-    stored_t_us_ = state.last_t_us;
-    stored_stream_id_ = state.stream_id;
+    stored_moment_ = state.moment;
     store_.post(std::move(state));
 }
 

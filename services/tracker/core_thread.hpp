@@ -48,8 +48,7 @@ class CoreThread {
     std::atomic<bool> figures_wanted_{false};
     std::atomic<bool> store_wanted_{false};
     std::uint64_t stored_revision_ = 0;
-    std::int64_t stored_t_us_ = -1;
-    std::uint64_t stored_stream_id_ = 0;
+    StoredMoment stored_moment_;
     std::mutex mutex_;
     SessionFigures figures_;
     std::thread thread_;

@@ -146,8 +146,8 @@ Result<StoredObject> object_of(const disk::StoredObject& stored) {
 
 Result<StoredState> state_of(const disk::Store& store) {
     StoredState state;
-    state.stream_id = store.stream_id();
-    state.last_t_us = store.has_last_t_us() ? store.last_t_us() : -1;
+    state.moment.stream_id = store.stream_id();
+    state.moment.last_t_us = store.has_last_t_us() ? store.last_t_us() : -1;
     state.next_object_id = store.has_next_object_id() ? store.next_object_id() : 1;
     if (store.has_strategy()) {
         state.settings.strategy = parse_strategy(store.strategy());
@@ -180,8 +180,8 @@ Result<StoredState> state_of(const disk::Store& store) {
 std::string encode_store(const StoredState& state) {
     disk::Store store;
     store.set_format(store_format);
-    store.set_stream_id(state.stream_id);
-    store.set_last_t_us(state.last_t_us);
+    store.set_stream_id(state.moment.stream_id);
+    store.set_last_t_us(state.moment.last_t_us);
     store.set_next_object_id(state.next_object_id);
     if (state.settings.strategy) {
         store.set_strategy(std::string(to_string(*state.settings.strategy)));

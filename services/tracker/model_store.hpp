@@ -26,10 +26,17 @@ struct StoredObject {
     std::optional<TrackSnapshot> track;  ///< Where it was last tracked.
 };
 
+/// When a state was: how far the events behind it went.
+struct StoredMoment {
+    std::uint64_t stream_id = 0;
+    std::int64_t last_t_us = -1;
+
+    friend bool operator==(const StoredMoment&, const StoredMoment&) = default;
+};
+
 /// What a tracker keeps between two runs.
 struct StoredState {
-    std::uint64_t stream_id = 0;  ///< Of the events behind the tracks.
-    std::int64_t last_t_us = -1;
+    StoredMoment moment;
     std::uint32_t next_object_id = 1;
     RequestedSettings settings;
     std::vector<StoredObject> objects;  ///< In order of ids.

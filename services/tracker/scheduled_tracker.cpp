@@ -63,8 +63,9 @@ void ScheduledTracker::apply_due() {
     }
 }
 
-void ScheduledTracker::begin_stream(Geometry geometry, std::uint64_t stream_id) {
-    tracker_.begin_stream(geometry, stream_id);
+void ScheduledTracker::begin_stream(Geometry geometry, std::uint64_t stream_id,
+                                    std::int64_t first_t_us) {
+    tracker_.begin_stream(geometry, stream_id, first_t_us);
     apply_due();
 }
 

@@ -39,7 +39,7 @@ class ScheduledTracker {
 
     Accepted call(v1::TrackerCall& call, std::int64_t apply_at_us);
 
-    void begin_stream(Geometry geometry, std::uint64_t stream_id);
+    void begin_stream(Geometry geometry, std::uint64_t stream_id, std::int64_t first_t_us = 0);
     void process(std::span<const Event> events, PoseSink& sink);
     void advance(std::int64_t t_us, PoseSink& sink);
 

@@ -17,14 +17,6 @@ PacketHeader header_of(const v1::EventPacket& packet) {
             packet.host_time_ns(), {packet.width(), packet.height()}, packet.end_of_stream()};
 }
 
-/// `pose` after `dt_s` at constant velocity about the model's centre.
-Pose moved_on(const Pose& pose, const Velocity& velocity, double dt_s) {
-    Pose moved = pose;
-    moved.t_px += Eigen::Vector2d(velocity.vx_px_s, velocity.vy_px_s) * dt_s;
-    moved.a = rotation(velocity.omega_rad_s * dt_s) * pose.a;
-    return moved;
-}
-
 void keep(std::vector<NamedValue>& kept, const NamedValue& value) {
     const auto known = std::find_if(kept.begin(), kept.end(),
                                     [&](const NamedValue& k) { return k.name == value.name; });
@@ -80,39 +72,15 @@ void TrackerSession::restore(const StoredState& stored) {
         tell("parameters", tracker.set_parameters("", std::span(&value, 1)));
     }
     for (const auto& [object, track] : stored.objects) {
-        Registration again{object.object_id, object.shape, object.transform,
-                           object.estimator, object.start, values(object.parameters)};
-        if (track) {
-            again.start = {false, track->pose, track->velocity};
-            const auto restored = tracker.register_object(again);
-            tell("pose of object " + object.shape.name + " (it begins where it was registered)",
-                 restored);
-            if (restored) continue;
-            again.start = object.start;
-        }
-        tell("object " + object.shape.name, tracker.register_object(again));
+        const auto registered =
+            tracker.register_object({object.object_id, object.shape, object.transform,
+                                     object.estimator, object.start, values(object.parameters)});
+        tell("object " + object.shape.name, registered);
+        if (!registered || !track) continue;
+        tell("pose of object " + object.shape.name + " (it begins where it was registered)",
+             tracker.resume(*track, stored.moment.stream_id));
     }
-    resumable_ = stored;
-}
-
-void TrackerSession::resume(const PacketHeader& packet) {
-    const StoredState stored = std::move(*std::exchange(resumable_, std::nullopt));
-    if (stored.stream_id != packet.stream_id) return;
-    for (const auto& [object, track] : stored.objects) {
-        const std::int64_t age_us = track ? packet.base_time_us - track->t_us : 0;
-        // Removed or changed by a request since the start: nothing to go on from.
-        const auto now = tracker_.tracker().object(object.shape.name);
-        if (age_us <= 0 || !now || now->object_id != object.object_id) continue;
-        if (now->start.search || now->start.pose != constrained(track->pose, now->transform)) {
-            continue;
-        }
-        const double dt_s = static_cast<double>(std::min(age_us, max_extrapolation_us)) * 1e-6;
-        const Start start{false, moved_on(track->pose, track->velocity, dt_s), track->velocity};
-        if (auto set = tracker_.tracker().set_pose(object.shape.name, start); !set) {
-            outputs_.error("the store's object " + object.shape.name + ": " + set.error().message);
-        }
-    }
-    board_.refresh(tracker_.tracker());
+    restored_ = stored.moment;
 }
 
 void TrackerSession::take(v1::EventPacket& packet) {
@@ -125,9 +93,8 @@ void TrackerSession::take(v1::EventPacket& packet) {
             dropped_bad_geometry_ += packet.words().size();
             return;
         case PacketFate::begins_stream:
-            if (resumable_) resume(header);
             publisher_.begin_stream();
-            tracker_.begin_stream(header.geometry, header.stream_id);
+            tracker_.begin_stream(header.geometry, header.stream_id, header.base_time_us);
             break;
         case PacketFate::continues_stream:
             break;
@@ -222,20 +189,19 @@ SessionFigures TrackerSession::figures() const {
     return figures;
 }
 
+StoredMoment TrackerSession::stored_moment() const {
+    // Before the first packet the poses are still those of the stored stream.
+    if (follower_.counters().streams == 0) return restored_;
+    return {follower_.stream_id(), tracker_.tracker().last_t_us()};
+}
+
 StoredState TrackerSession::stored_state() const {
     const Tracker& tracker = tracker_.tracker();
     StoredState state;
-    // Before the first packet the poses are still those of the stored stream.
-    state.stream_id = resumable_ ? resumable_->stream_id : follower_.stream_id();
-    state.last_t_us = resumable_ ? resumable_->last_t_us : tracker.last_t_us();
+    state.moment = stored_moment();
     state.next_object_id = tracker.next_object_id();
     state.settings = requested_;
-    std::vector<TrackSnapshot> tracks = tracker.snapshots();
-    if (resumable_) {
-        for (const auto& stored : resumable_->objects) {
-            if (stored.track) tracks.push_back(*stored.track);
-        }
-    }
+    const std::vector<TrackSnapshot> tracks = tracker.snapshots();
     for (auto& object : tracker.objects()) {
         const auto track = std::find_if(tracks.begin(), tracks.end(), [&](const auto& snapshot) {
             return snapshot.object_id == object.object_id && snapshot.was_tracked;

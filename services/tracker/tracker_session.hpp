@@ -56,10 +56,9 @@ struct SessionOutputs {
 /// requests to the tracker at their time, results to the outputs. Knows no middleware. One thread.
 class TrackerSession {
  public:
-    /// `stored`: what a former run left. Its objects come back with their ids, at their last poses;
-    /// where the same stream still runs, moved on by their velocities to its first packet. `models`
-    /// are registered where no object of that name is there. What cannot be restored is told to
-    /// outputs.error and left out.
+    /// `stored`: what a former run left. Its objects come back with their ids, and go on from their
+    /// last poses (Tracker::resume). `models` are registered where no object of that name is there.
+    /// What cannot be restored is told to outputs.error and left out.
     TrackerSession(Tracker tracker, ServiceIdentity identity, std::optional<StoredState> stored,
                    const std::vector<Registration>& models, Clock& clock, SessionOutputs outputs);
 
@@ -71,16 +70,14 @@ class TrackerSession {
 
     [[nodiscard]] SessionFigures figures() const;
     [[nodiscard]] StoredState stored_state() const;
+    /// Of that state, without making it.
+    [[nodiscard]] StoredMoment stored_moment() const;
 
     /// Counts the changes that the store has to keep at once: objects and settings, not poses.
     [[nodiscard]] std::uint64_t revision() const { return revision_; }
 
-    /// A pose older than this is moved on no further: velocities do not hold for ever.
-    static constexpr std::int64_t max_extrapolation_us = 2'000'000;
-
  private:
     void restore(const StoredState& stored);
-    void resume(const PacketHeader& packet);
     void changed(const v1::TrackerCall& call);
     void note_busy(std::int64_t busy_ns, std::int64_t t_before_us);
 
@@ -92,8 +89,8 @@ class TrackerSession {
     PosePublisher publisher_;
     ModelBoard board_;
     RequestedSettings requested_;
-    std::optional<StoredState> resumable_;  // until the first packet
-    std::vector<Event> events_;             // kept between packets
+    StoredMoment restored_;
+    std::vector<Event> events_;  // kept between packets
     std::uint64_t dropped_bad_geometry_ = 0;
     std::uint64_t requests_ = 0;
     std::uint64_t requests_refused_ = 0;

@@ -27,7 +27,7 @@ EventLoop::EventLoop(const TrackerOptions& options, const Preset& preset)
     if (!options.only_checks) recent_.reserve(options.reserved);
 }
 
-void EventLoop::begin_stream(Geometry geometry, std::uint64_t stream_id) {
+void EventLoop::begin_stream(Geometry geometry, std::uint64_t stream_id, std::int64_t first_t_us) {
     // Nothing of the former stream comes any more.
     apply_changes();
     geometry_ = geometry;
@@ -37,7 +37,7 @@ void EventLoop::begin_stream(Geometry geometry, std::uint64_t stream_id) {
     recent_.restart(geometry);
     seeker_.restart(geometry);
     arbiter_.restart();
-    for (Track& track : tracks_) track.begin_stream();
+    for (Track& track : tracks_) track.begin_stream(stream_id, first_t_us);
     restart_round();
 }
 

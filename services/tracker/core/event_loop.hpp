@@ -43,7 +43,7 @@ class EventLoop {
     EventLoop(const TrackerOptions& options, const Preset& preset);
 
     /// Event time begins anew.
-    void begin_stream(Geometry geometry, std::uint64_t stream_id);
+    void begin_stream(Geometry geometry, std::uint64_t stream_id, std::int64_t first_t_us);
     void process(std::span<const Event> events, PoseSink& sink);
     /// No event before t_us will come any more.
     void advance(std::int64_t t_us, PoseSink& sink);

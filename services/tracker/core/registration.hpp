@@ -67,7 +67,7 @@ struct Settings {
     ObjectParameters new_objects;  ///< What a registration's parameters go over.
 };
 
-/// Where a track stands, for the store on disk.
+/// Where a track stands, for the store on disk and for a run after this.
 struct TrackSnapshot {
     std::uint32_t object_id = 0;
     TrackState state = TrackState::searching;

@@ -23,7 +23,7 @@ constexpr std::int64_t unstirred_us = 2'000;
 Track::Track(const RegisteredObject& object, const TrackerParameters& tracker) : tracker_(tracker) {
     make_for(object);
     start_ = object.start;
-    begin();
+    begin(start_);
 }
 
 void Track::make_for(const RegisteredObject& object) {
@@ -45,6 +45,8 @@ void Track::make_for(const RegisteredObject& object) {
 void Track::replace(const RegisteredObject& object) {
     const PoseRecord last = record(last_event_t_us_);
     make_for(object);
+    start_ = object.start;  // as the new transform allows it
+    if (former_) former_->last.pose = constrained(former_->last.pose, transform_);
     is_chased_ = false;
     estimator_->restart(constrained(last.pose, transform_), last.velocity);
     hidden_way_.constrain(transform_);
@@ -63,12 +65,13 @@ void Track::set_parameters(const ObjectParameters& parameters, const TrackerPara
 void Track::restart(const RegisteredObject& object) {
     if (events_used_ > 0) make_for(object);
     start_ = object.start;
-    begin();
+    former_.reset();
+    begin(start_);
 }
 
-void Track::begin() {
+void Track::begin(const Start& start) {
     stir();
-    is_searching_ = start_.search;
+    is_searching_ = start.search;
     is_fresh_ = true;
     is_acquiring_ = is_covered_ = is_chased_ = is_adrift_ = has_moved_ = false;
     near_since_check_ = 0;
@@ -89,40 +92,8 @@ void Track::begin() {
     hidden_way_.restart();
     begin_doubt(0, start_confirmations, 0);
     grip_.restart();
-    estimator_->restart(start_.pose, start_.velocity);
-    good_.begin_at(start_.pose, start_.velocity);
-}
-
-void Track::begin_stream() {
-    // A start that no event has moved yet was given for the stream that begins.
-    if (is_searching_ || is_fresh_) {
-        begin();
-        last_event_t_us_ = 0;  // what it tried was in the other stream
-        return;
-    }
-    vanishing_.restart();
-    silence_.restart();
-    is_chased_ = false;
-    has_moved_ = false;
-    unmoved_until_us_ = 0;
-    emerges_ = false;
-    emerged_us_ = emerged_at_us_ = -1;
-    look_for_blind_us_ = 0;
-    if (doubt_.is_open()) begin_doubt(0, start_confirmations, 0);
-    outline_.clear();
-    tally_.begin_stream();
-    acquired_us_ = doubted_us_ = never_us;
-    // How long the sensor was away is not known: the last good pose, at rest.
-    const Pose last = is_covered_     ? hidden_way_.last().pose
-                      : is_acquiring_ ? good_.before().pose
-                                      : estimator_->pose();
-    is_covered_ = false;
-    hidden_way_.restart();
-    good_.set({0, last, {}});
-    last_event_t_us_ = 0;
-    lose_grip(0);
-    is_adrift_ = true;
-    adrift_since_us_ = -1;  // the stream's first time, whatever the sensor counts from
+    estimator_->restart(start.pose, start.velocity);
+    good_.begin_at(start.pose, start.velocity);
 }
 
 void Track::lose_grip(std::int64_t t_us) {

@@ -52,8 +52,12 @@ class Track {
     void set_parameters(const ObjectParameters& parameters, const TrackerParameters& tracker);
     /// Begins anew at the start, and has learnt nothing.
     void restart(const RegisteredObject& object);
-    /// Event time begins anew; the pose is looked for around the last.
-    void begin_stream();
+    /// A former run followed it, as `last` says, in the stream of this id: the stream that begins
+    /// next goes on from there. For a track that no event has moved.
+    void resume(const TrackSnapshot& last, std::uint64_t stream_id);
+    /// Event time begins anew, at `first_t_us`; the pose is looked for around the last. What a
+    /// former run followed in the same stream goes on from where it is by now.
+    void begin_stream(std::uint64_t stream_id, std::int64_t first_t_us);
 
     [[nodiscard]] std::uint32_t object_id() const { return object_id_; }
     [[nodiscard]] Pose pose() const;
@@ -151,12 +155,23 @@ class Track {
     bool tells_of_loss(LossCause told) {
         return std::exchange(told_, told) != told && told != LossCause::not_lost;
     }
-    [[nodiscard]] TrackSnapshot snapshot() const;
+    /// At the last processed time.
+    [[nodiscard]] TrackSnapshot snapshot(std::int64_t t_us) const;
 
  private:
+    /// What a former run knew, and in which stream.
+    struct Former {
+        TrackSnapshot last;
+        std::uint64_t stream_id = 0;
+    };
+
     void make_for(const RegisteredObject& object);
-    /// At the start, and nothing is known of how it goes.
-    void begin();
+    /// There, and nothing is known of how it goes.
+    void begin(const Start& start);
+    /// From former_, with a stream.
+    void go_on(std::uint64_t stream_id, std::int64_t first_t_us);
+    /// It may be anywhere in the stream that begins, near the last pose rather than elsewhere.
+    void drift_from(const Pose& last);
     void begin_doubt(std::int64_t t_us, int confirmations, std::int64_t since_us,
                      const std::optional<Coast>& before = std::nullopt);
     /// Whether the object has fallen silent.
@@ -194,7 +209,8 @@ class Track {
     TransformKind transform_ = TransformKind::isometry;
     ObjectParameters parameters_;
     TrackerParameters tracker_;
-    Start start_;
+    Start start_;                   // as registered
+    std::optional<Former> former_;  // holds until an event moves the track
     std::unique_ptr<Estimator> estimator_;
     std::unique_ptr<Acquisition> acquisition_;
     Grip grip_;

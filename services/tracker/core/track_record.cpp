@@ -88,11 +88,12 @@ PoseRecord Track::record(std::int64_t t_us) const {
     return record;
 }
 
-TrackSnapshot Track::snapshot() const {
+TrackSnapshot Track::snapshot(std::int64_t t_us) const {
+    if (former_ && is_fresh_) return former_->last;
     TrackSnapshot snapshot;
     snapshot.object_id = object_id_;
-    snapshot.state = state_at(last_event_t_us_);
-    snapshot.was_tracked = !is_searching_ && events_used_ > 0;
+    snapshot.state = state_at(std::max(t_us, last_event_t_us_));
+    snapshot.was_tracked = !is_searching_ && (events_used_ > 0 || is_adrift_);
     snapshot.t_us = is_acquiring_ ? good_.before().t_us : last_event_t_us_;
     PoseRecord last;
     estimator_->describe(last_event_t_us_, last);

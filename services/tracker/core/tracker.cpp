@@ -55,8 +55,8 @@ Tracker::Tracker(Tracker&& other) noexcept = default;
 Tracker& Tracker::operator=(Tracker&& other) noexcept = default;
 Tracker::~Tracker() = default;
 
-void Tracker::begin_stream(Geometry geometry, std::uint64_t stream_id) {
-    impl_->loop.begin_stream(geometry, stream_id);
+void Tracker::begin_stream(Geometry geometry, std::uint64_t stream_id, std::int64_t first_t_us) {
+    impl_->loop.begin_stream(geometry, stream_id, first_t_us);
 }
 
 void Tracker::process(std::span<const Event> events, PoseSink& sink) {
@@ -108,6 +108,23 @@ CallResult<void> Tracker::set_pose(std::string_view name, const Start& start) {
     return {};
 }
 
+CallResult<void> Tracker::resume(const TrackSnapshot& last, std::uint64_t stream_id) {
+    if (auto room = impl_->has_room(); !room) return room;
+    const RegisteredObject* object = impl_->registry.find(last.object_id);
+    if (object == nullptr) {
+        return refuse(CallStatus::not_found,
+                      "object_id: no object " + std::to_string(last.object_id) + " is registered");
+    }
+    for (const auto& checked : {check(last.pose, object->transform), check(last.velocity)}) {
+        if (checked) continue;
+        return refuse(CallStatus::invalid_argument, "last." + checked.error().message);
+    }
+    impl_->hold([last, stream_id](EventLoop& loop) {
+        if (Track* track = loop.find(last.object_id)) track->resume(last, stream_id);
+    });
+    return {};
+}
+
 CallResult<void> Tracker::set_strategy(StrategyKind kind, std::span<const NamedValue> parameters) {
     if (auto room = impl_->has_room(); !room) return tl::unexpected(room.error());
     auto changed = impl_->registry.set_strategy(kind, parameters, effective_time_us());
@@ -153,7 +170,9 @@ CallResult<RegisteredObject> Tracker::object(std::string_view name) const {
 
 std::vector<TrackSnapshot> Tracker::snapshots() const {
     std::vector<TrackSnapshot> snapshots;
-    for (const Track& track : impl_->loop.tracks()) snapshots.push_back(track.snapshot());
+    for (const Track& track : impl_->loop.tracks()) {
+        snapshots.push_back(track.snapshot(last_t_us()));
+    }
     return snapshots;
 }
 

@@ -49,8 +49,9 @@ class Tracker {
 
     /// A sensor started: event time begins anew. Poses are kept; every track that had one looks for
     /// its object around it. Before the first call the stream has no geometry and takes no event.
-    /// The geometry is_usable().
-    void begin_stream(Geometry geometry, std::uint64_t stream_id);
+    /// The geometry is_usable(). No event comes before `first_t_us`: so far has gone on what a
+    /// former run followed in this very stream.
+    void begin_stream(Geometry geometry, std::uint64_t stream_id, std::int64_t first_t_us = 0);
 
     /// Takes events in order of time. Those outside the geometry or back in time are dropped and
     /// counted.
@@ -75,6 +76,12 @@ class Tracker {
 
     /// The track begins anew at `start`.
     CallResult<void> set_pose(std::string_view name, const Start& start);
+
+    /// The object was followed by a former run, as `last` says, in the stream of this id. Where
+    /// that stream is the next to begin, and the object was TRACKING, it goes on from there; else
+    /// it is looked for around there. Where it is registered to start stays. Refused: an id that is
+    /// not registered, and a pose or velocity out of bounds.
+    CallResult<void> resume(const TrackSnapshot& last, std::uint64_t stream_id);
 
     /// Switches the strategy; parameters not named get the preset's values.
     CallResult<void> set_strategy(StrategyKind kind, std::span<const NamedValue> parameters);

@@ -38,8 +38,8 @@ StoredObject object(std::uint32_t id, const std::string& name, bool tracked) {
 
 StoredState state() {
     StoredState state;
-    state.stream_id = 0xfedcba9876543210;
-    state.last_t_us = 987'654'321'987;
+    state.moment.stream_id = 0xfedcba9876543210;
+    state.moment.last_t_us = 987'654'321'987;
     state.next_object_id = 9;
     state.settings.strategy = StrategyKind::closest;
     state.settings.strategy_parameters = {{"ambiguity_px", 2.9}};
@@ -49,8 +49,7 @@ StoredState state() {
 }
 
 void expect_same(const StoredState& a, const StoredState& b) {
-    EXPECT_EQ(a.stream_id, b.stream_id);
-    EXPECT_EQ(a.last_t_us, b.last_t_us);
+    EXPECT_EQ(a.moment, b.moment);
     EXPECT_EQ(a.next_object_id, b.next_object_id);
     EXPECT_EQ(a.settings, b.settings);
     ASSERT_EQ(a.objects.size(), b.objects.size());

@@ -45,7 +45,31 @@ TEST(TrackerSession, goes_on_where_an_object_was_tracked_last) {
     EXPECT_TRUE(restarted.errors.empty());
     const StoredState now = restarted.session.stored_state();
     ASSERT_EQ(now.objects.size(), 1U);
-    EXPECT_EQ(now.objects[0].object.start.pose.t_px, last.t_px);
+    ASSERT_TRUE(now.objects[0].track);
+    EXPECT_EQ(now.objects[0].track->pose.t_px, last.t_px);
+}
+
+TEST(TrackerSession, leaves_where_an_object_was_registered_as_it_was) {
+    Restarted restarted(tracked_at(pose_of(100, 90, 1)));
+    const StoredState now = restarted.session.stored_state();
+    ASSERT_EQ(now.objects.size(), 1U);
+    EXPECT_EQ(now.objects[0].object.start.pose.t_px, Eigen::Vector2d(50, 60));
+}
+
+TEST(TrackerSession, has_nothing_new_to_store_before_the_first_packet) {
+    StoredState stored = tracked_at(pose_of(100, 90, 1));
+    stored.moment = {7, 1'000'000};
+    Restarted restarted(stored);
+    EXPECT_EQ(restarted.session.stored_moment(), stored.moment);
+    EXPECT_EQ(restarted.session.stored_state().moment, stored.moment);
+    v1::EventPacket packet;
+    packet.sensor_id(1);
+    packet.stream_id(8);
+    packet.base_time_us(500);
+    packet.width(304);
+    packet.height(240);
+    restarted.session.take(packet);
+    EXPECT_EQ(restarted.session.stored_moment(), (StoredMoment{8, 500}));
 }
 
 TEST(TrackerSession, begins_where_an_object_was_registered_where_its_last_pose_is_none) {

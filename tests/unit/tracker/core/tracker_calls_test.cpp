@@ -94,6 +94,23 @@ TEST(TrackerCalls, give_identical_content_its_id_again_whatever_the_start) {
     EXPECT_EQ(status_of(tracker.register_object(again)), CallStatus::already_exists);
 }
 
+TEST(TrackerCalls, let_an_object_that_no_event_has_moved_start_as_a_new_transform_allows) {
+    Tracker tracker = std::move(*Tracker::create({}));
+    Registration large = at(arrow("a"), 100, 90);
+    large.transform = TransformKind::similarity;
+    large.start.pose = pose_of(100, 90, 0, 1.2, 1.2);
+    ASSERT_TRUE(tracker.register_object(large));
+    ASSERT_TRUE(tracker.update_object({arrow("a"), TransformKind::isometry, large.estimator, {}}));
+    tracker.begin_stream(small_sensor, 7);
+    Poses poses;
+    const Event elsewhere{10, 300, 1, 1};
+    tracker.process(std::span(&elsewhere, 1), poses);
+    tracker.advance(2'000, poses);
+    ASSERT_FALSE(poses.rows.empty());
+    EXPECT_EQ(poses.rows.back().record.state, TrackState::tracking);
+    EXPECT_DOUBLE_EQ(poses.rows.back().record.scale_x, 1);
+}
+
 TEST(TrackerCalls, refuse_bad_shapes_starts_and_parameters_and_change_nothing) {
     Tracker tracker = make_tracker();
     Registration bad = at(arrow("a"), 1, 1);
