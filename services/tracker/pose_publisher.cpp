@@ -23,7 +23,12 @@ void PosePublisher::packet(std::int64_t base_time_us, std::int64_t host_time_ns)
     packet_host_time_ns_ = host_time_ns;
 }
 
-void PosePublisher::forget(std::uint32_t object_id) { objects_.erase(object_id); }
+void PosePublisher::forget(std::uint32_t object_id) {
+    const auto gone = objects_.find(object_id);
+    if (gone == objects_.end()) return;
+    if (!gone->second.updates.empty()) send_track(object_id, gone->second);
+    objects_.erase(gone);
+}
 
 void PosePublisher::pose(const PoseRecord& record) {
     Object& object = objects_[record.object_id];

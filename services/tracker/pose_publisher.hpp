@@ -31,6 +31,7 @@ class PosePublisher final : public PoseSink {
     void packet(std::int64_t base_time_us, std::int64_t host_time_ns);
     /// Latencies are those of one stream.
     void begin_stream() { latency_.clear(); }
+    /// The object is gone; what was gathered of it is sent.
     void forget(std::uint32_t object_id);
 
     void pose(const PoseRecord& record) override;
