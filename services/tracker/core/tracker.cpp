@@ -140,13 +140,16 @@ CallResult<void> Tracker::set_parameters(std::string_view name,
     if (auto room = impl_->has_room(); !room) return tl::unexpected(room.error());
     auto changed = impl_->registry.set_parameters(name, parameters, effective_time_us());
     if (!changed) return changed;
-    impl_->hold([objects = impl_->registry.objects(),
+    // Without the shapes: in a silence many such calls wait.
+    std::vector<std::pair<std::uint32_t, ObjectParameters>> of_objects;
+    for (const RegisteredObject& object : impl_->registry.objects()) {
+        of_objects.emplace_back(object.object_id, object.parameters);
+    }
+    impl_->hold([of_objects = std::move(of_objects),
                  tracker = impl_->registry.settings().tracker](EventLoop& loop) {
         loop.set_tells_occlusion(tracker.tells_occlusion >= 0.5);
-        for (const RegisteredObject& object : objects) {
-            if (Track* track = loop.find(object.object_id)) {
-                track->set_parameters(object.parameters, tracker);
-            }
+        for (const auto& [object_id, of_one] : of_objects) {
+            if (Track* track = loop.find(object_id)) track->set_parameters(of_one, tracker);
         }
     });
     return {};

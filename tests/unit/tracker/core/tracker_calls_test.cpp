@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include "services/tracker/core/tracker.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
@@ -234,6 +235,21 @@ TEST(TrackerCalls, wait_for_the_next_event_up_to_1024_and_are_refused_beyond) {
     tracker.process({{{2000, 100, 100, 1}}}, poses);
     EXPECT_EQ(poses.rows.back().record.pose.t_px.x(), 30);
     EXPECT_TRUE(tracker.set_pose("a", beyond));
+}
+
+TEST(TrackerCalls, that_set_parameters_wait_without_copies_of_the_shapes) {
+    Tracker tracker = make_tracker();
+    Poses poses;
+    const Event event{10, 1, 1, 1};
+    tracker.process(std::span(&event, 1), poses);
+    for (int i = 0; i < 8; ++i) {
+        const Shape ring = test::ring("r" + std::to_string(i), 50, max_shape_points);
+        ASSERT_TRUE(tracker.register_object(at(ring, 100, 90)));
+    }
+    const std::size_t before_bytes = mallinfo2().uordblks;
+    const NamedValue gate{"gate_px", 5};
+    for (int i = 0; i < 1000; ++i) ASSERT_TRUE(tracker.set_parameters("", std::span(&gate, 1)));
+    EXPECT_LT(mallinfo2().uordblks - before_bytes, 10'000'000U);
 }
 
 TEST(TrackerCalls, of_a_tracker_that_only_checks_are_answered_alike_and_move_nothing) {
