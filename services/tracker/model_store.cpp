@@ -213,11 +213,11 @@ Result<StoredState> decode_store(std::string_view bytes) {
     return state_of(store);
 }
 
-Result<std::optional<StoredState>> read_store(const std::string& path) {
+Result<FoundStore> read_store(const std::string& path) {
     std::error_code error;
     if (!std::filesystem::exists(path, error)) {
         if (error) return fail(path + ": cannot be looked for: " + error.message());
-        return std::optional<StoredState>();
+        return FoundStore();
     }
     if (!std::filesystem::is_regular_file(path, error)) {
         return fail(path + ": is no regular file, as a store must be");
@@ -229,18 +229,18 @@ Result<std::optional<StoredState>> read_store(const std::string& path) {
         std::ifstream in(path, std::ios::binary);
         std::ostringstream bytes;
         if (in && size > 0) bytes << in.rdbuf();
-        if (!in) return fail(path + ": cannot be read: " + std::strerror(errno));
+        if (!in || !bytes) return fail(path + ": cannot be read: " + std::strerror(errno));
         state = decode_store(bytes.str());
     }
-    if (state) return std::optional<StoredState>(std::move(*state));
+    if (state) return FoundStore{std::move(*state), ""};
+    const std::string damage = path + ": the store is damaged: " + state.error().message;
     // A link stays, as it does where the store is written.
     const auto file = followed_links(path);
     if (!file) return tl::unexpected(file.error());
     const std::string aside = *file + ".damaged";
     std::filesystem::rename(*file, aside, error);
-    return fail(
-        path + ": the store is damaged: " + state.error().message +
-        (error ? "; it could not be kept aside: " + error.message() : "; it is kept as " + aside));
+    if (error) return fail(damage + "; it cannot be kept aside: " + error.message());
+    return FoundStore{std::nullopt, damage + "; it is kept as " + aside};
 }
 
 Result<void> write_store(const std::string& path, const StoredState& state) {

@@ -50,9 +50,15 @@ std::string encode_store(const StoredState& state);
 /// Refuses bytes whose checksum, format or content is wrong, naming the field.
 Result<StoredState> decode_store(std::string_view bytes);
 
-/// Nothing where no file is. A file that is damaged is an error, and is renamed to
-/// "<path>.damaged".
-Result<std::optional<StoredState>> read_store(const std::string& path);
+/// What was found where a store should be: nothing where no file is, nor where it was damaged.
+struct FoundStore {
+    std::optional<StoredState> state;
+    std::string damage;  ///< Of the file, which is "<path>.damaged" now; empty where it is good.
+};
+
+/// An error where a file is or may be that cannot be read, or neither understood nor kept aside:
+/// another must not be written over it.
+Result<FoundStore> read_store(const std::string& path);
 
 Result<void> write_store(const std::string& path, const StoredState& state);
 

@@ -56,15 +56,14 @@ Result<void> TrackerService::start() {
     if (auto open = open_writers(); !open) return open;
 
     const std::string path = store_path(config_);
-    std::optional<StoredState> stored;
+    FoundStore found;
     if (!path.empty()) {
         auto read = read_store(path);
-        if (!read) {
-            health_.error(read.error().message + "; no object is restored");
-        } else {
-            stored = std::move(*read);
-        }
+        if (!read) return tl::unexpected(read.error());
+        found = std::move(*read);
+        if (!found.damage.empty()) health_.error(found.damage + "; no object is restored");
     }
+    auto& stored = found.state;
     auto tracker = configured_tracker(config_, stored ? stored->next_object_id : 1);
     if (!tracker) return tl::unexpected(tracker.error());
     SessionOutputs outputs{
@@ -117,8 +116,7 @@ Result<void> TrackerService::open_readers() {
     if (!requests) return tl::unexpected(requests.error());
     requests_ = std::move(*requests);
     auto events = Reader<v1::EventPacket>::create(
-        *participant_, topic::events,
-        [this](v1::EventPacket& packet, const auto&) {
+        *participant_, topic::events, [this](v1::EventPacket& packet, const auto&) {
             take_in(packet, identity_.sensor_id, clock_.steady_ns(), queue_, intake_);
         });
     if (!events) return tl::unexpected(events.error());

@@ -88,6 +88,15 @@ class TrackerCalls(SystemTest):
         self.assertIn("the store is damaged", status["last_error"])
         self.assertTrue(os.path.exists(self.store + ".damaged"))
 
+    def test_a_store_that_cannot_be_read_is_named_and_the_tracker_does_not_start(self):
+        self.tracker.kill()
+        path = self.path("unreadable.store")
+        os.mkdir(path)
+        tracker = self.start("pursuit-tracker", "--set", f"store={path}", ready=False)
+        self.assertEqual(tracker.wait(10), 1)
+        self.assertIn(f"{path}: cannot be read", tracker.err())
+        self.assertTrue(os.path.isdir(path))
+
     def test_sigterm_ends_it_within_two_seconds_with_the_store_written(self):
         self.register("one")
         os.remove(self.store)

@@ -126,7 +126,8 @@ TEST(ModelStore, finds_nothing_where_no_file_is) {
     const test::TemporaryFolder folder;
     const auto read = read_store(folder.path("tracker.store"));
     ASSERT_TRUE(read) << read.error().message;
-    EXPECT_FALSE(*read);
+    EXPECT_FALSE(read->state);
+    EXPECT_EQ(read->damage, "");
 }
 
 TEST(ModelStore, reads_back_the_file_it_has_written_over_an_older_one) {
@@ -135,17 +136,18 @@ TEST(ModelStore, reads_back_the_file_it_has_written_over_an_older_one) {
     ASSERT_TRUE(write_store(path, {}));
     ASSERT_TRUE(write_store(path, state()));
     const auto read = read_store(path);
-    ASSERT_TRUE(read && *read);
-    expect_same(**read, state());
+    ASSERT_TRUE(read && read->state);
+    expect_same(*read->state, state());
 }
 
 TEST(ModelStore, keeps_a_damaged_file_aside_and_names_it) {
     const test::TemporaryFolder folder;
     const auto path = folder.file("tracker.store", "not a store");
     const auto read = read_store(path);
-    ASSERT_FALSE(read);
-    EXPECT_THAT(read.error().message, HasSubstr(path + ": the store is damaged: "));
-    EXPECT_THAT(read.error().message, HasSubstr("kept as " + path + ".damaged"));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_FALSE(read->state);
+    EXPECT_THAT(read->damage, HasSubstr(path + ": the store is damaged: "));
+    EXPECT_THAT(read->damage, HasSubstr("kept as " + path + ".damaged"));
     EXPECT_FALSE(std::filesystem::exists(path));
     EXPECT_EQ(test::content_of(path + ".damaged"), "not a store");
 }
@@ -158,10 +160,10 @@ TEST(ModelStore, behind_a_link_is_written_read_and_kept_aside_in_its_own_folder)
     ASSERT_TRUE(write_store(link, state()));
     EXPECT_TRUE(std::filesystem::is_regular_file(folder.path("far/store")));
     const auto read = read_store(link);
-    ASSERT_TRUE(read && *read);
-    expect_same(**read, state());
+    ASSERT_TRUE(read && read->state);
+    expect_same(*read->state, state());
     folder.file("far/store", "not a store");
-    EXPECT_FALSE(read_store(link));
+    EXPECT_FALSE(read_store(link)->state);
     EXPECT_TRUE(std::filesystem::is_symlink(link));
     EXPECT_EQ(test::content_of(folder.path("far/store.damaged")), "not a store");
 }
@@ -175,6 +177,27 @@ TEST(ModelStore, is_not_read_from_nor_written_over_what_is_no_regular_file) {
     EXPECT_THAT(read.error().message, HasSubstr("is no regular file"));
     EXPECT_FALSE(write_store(fifo, state()));
     EXPECT_TRUE(std::filesystem::is_fifo(fifo));
+}
+
+TEST(ModelStore, takes_what_cannot_be_read_or_kept_aside_for_an_error_and_not_for_nothing) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.path("tracker.store");
+    std::filesystem::create_directory(path);
+    auto read = read_store(path);
+    ASSERT_FALSE(read);
+    EXPECT_THAT(read.error().message, HasSubstr(path + ": is no regular file"));
+    std::filesystem::remove(path);
+    std::filesystem::create_symlink(path, path);
+    read = read_store(path);
+    ASSERT_FALSE(read);
+    EXPECT_THAT(read.error().message, HasSubstr(path + ": cannot be looked for: "));
+    std::filesystem::remove(path);
+    folder.file("tracker.store", "not a store");
+    std::filesystem::create_directory(path + ".damaged");
+    read = read_store(path);
+    ASSERT_FALSE(read);
+    EXPECT_THAT(read.error().message, HasSubstr("it cannot be kept aside: "));
+    EXPECT_EQ(test::content_of(path), "not a store");
 }
 
 TEST(ModelStore, tells_that_a_folder_cannot_be_written) {
