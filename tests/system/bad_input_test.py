@@ -176,6 +176,12 @@ class BadInput(SystemTest):
         self.assertIn("no-such-model", self.ctl_err)
         self.assertEqual(self.ctl("model", "list").strip(), "")
 
+    def test_a_table_of_poses_that_cannot_be_created_is_named_and_ends_with_1(self):
+        self.service("tracker")
+        path = self.path("no/such/folder/poses.csv")
+        self.ctl("poses", "--csv", path, "--for", "5", code=1)
+        self.assertIn(f"{path}: cannot create: ", self.ctl_err)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

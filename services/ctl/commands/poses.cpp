@@ -2,6 +2,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
@@ -89,10 +90,11 @@ class Output {
         Output output(options);
         if (!options.to_csv) return output;
         if (!options.csv.empty()) {
-            output.file_ = std::fopen(options.csv.c_str(), "we");
-            if (output.file_ == nullptr) {
+            std::FILE* file = std::fopen(options.csv.c_str(), "we");
+            if (file == nullptr) {
                 return fail(options.csv + ": cannot create: " + std::strerror(errno));
             }
+            output.file_ = file;
         }
         output.write(pose_csv_header);
         output.flush();
