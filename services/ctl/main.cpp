@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <map>
 #include <string>
 
 #include "services/ctl/commands/command.hpp"
+#include "services/ctl/commands/report.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+/// The chosen command to its end; gives the exit code.
+int run(int argc, char** argv) {
     CLI::App app("Commands and inspects Pursuit, and does its work on files");
     app.require_subcommand(1);
     app.set_version_flag("--version", PURSUIT_VERSION);
@@ -24,4 +31,18 @@ int main(int argc, char** argv) {
     }
     CLI11_PARSE(app, argc, argv);
     return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const int code = run(argc, argv);
+    // What a command printed may be its result, and the last of it is written only here. A write
+    // that failed before leaves its mark on the stream.
+    errno = 0;
+    const bool printed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (printed) return code;
+    const std::string cause = errno == 0 ? "" : std::string(": ") + std::strerror(errno);
+    const int failed = pursuit::ctl::report({"standard output: cannot write" + cause});
+    return code == pursuit::exit_success ? failed : code;
 }
