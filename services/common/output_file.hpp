@@ -15,11 +15,16 @@ namespace pursuit {
 /// empty what is yet to be read.
 Result<void> check_is_not_input(const std::string& output_path, const std::string& input_path);
 
+/// Refuses two outputs that are, or would be, one file: the one would overwrite the other.
+Result<void> check_are_two_outputs(const std::string& one_path, const std::string& other_path);
+
 /// A file being written from its start, buffered. The first error sticks: every later call returns
 /// it, so that a full disk cannot pass as success. A file that was not closed is incomplete.
 class OutputFile {
  public:
-    /// Creates or empties `path`.
+    /// Creates `path`. A file that is there keeps what it holds until the first of the new is
+    /// written out, at close() at the latest: all outputs can be open before any of them is
+    /// emptied.
     static Result<OutputFile> create(const std::string& path);
 
     OutputFile(OutputFile&& other) noexcept;
@@ -36,9 +41,11 @@ class OutputFile {
  private:
     OutputFile(std::string path, int file);
     Result<void> flush();
+    Result<void> failed(const char* what);
 
     std::string path_;
     int file_ = -1;
+    bool emptied_ = false;
     std::string buffer_;
     std::string error_;
 };

@@ -7,6 +7,7 @@
 #include "services/common/output_file.hpp"
 #include "services/ctl/pose_csv.hpp"
 #include "services/sensor/formats/formats.hpp"
+#include "services/tracker/model_file.hpp"
 #include "services/tracker/start_settings.hpp"
 
 namespace pursuit::ctl {
@@ -29,9 +30,22 @@ class TableSink final : public tracker::PoseSink {
     PoseCsvWriter& table_;
 };
 
-Result<void> register_models(const OfflineTrack& task, tracker::Tracker& tracker) {
-    auto config = task.config;
-    for (const auto& model : task.models) config.add_model(model);
+/// The table of poses must be none of the files that are read.
+Result<void> check_inputs(const OfflineTrack& task, const disk::TrackerConfig& config) {
+    std::vector<std::string> inputs = {task.events, task.config_path};
+    for (const auto& argument : config.model()) {
+        const auto model = tracker::parse_model_argument(argument);
+        if (!model) continue;  // Told with the field that it is in, by who reads it.
+        for (auto& path : tracker::model_file_paths(model->path)) inputs.push_back(std::move(path));
+    }
+    for (const auto& input : inputs) {
+        if (auto ok = check_is_not_input(task.poses, input); !ok) return ok;
+    }
+    return {};
+}
+
+Result<void> register_models(const OfflineTrack& task, const disk::TrackerConfig& config,
+                             tracker::Tracker& tracker) {
     if (config.model().empty()) return fail("no model is named");
     auto registrations = tracker::configured_models(config);
     if (!registrations) return tl::unexpected(registrations.error());
@@ -63,9 +77,9 @@ Result<void> follow(sensor::EventReader& events, tracker::Tracker& tracker, Tabl
 }  // namespace
 
 Result<OfflineTrackSummary> track_offline(const OfflineTrack& task) {
-    if (auto ok = check_is_not_input(task.poses, task.events); !ok) {
-        return tl::unexpected(ok.error());
-    }
+    auto config = task.config;
+    for (const auto& model : task.models) config.add_model(model);
+    if (auto ok = check_inputs(task, config); !ok) return tl::unexpected(ok.error());
     auto tracker = tracker::configured_tracker(task.config, 1);
     if (!tracker) return tl::unexpected(tracker.error());
     sensor::ReadOptions options;
@@ -80,7 +94,7 @@ Result<OfflineTrackSummary> track_offline(const OfflineTrack& task) {
     }
     // Objects are registered before the stream begins, as the service does with those of its
     // configuration.
-    if (auto ok = register_models(task, *tracker); !ok) return tl::unexpected(ok.error());
+    if (auto ok = register_models(task, config, *tracker); !ok) return tl::unexpected(ok.error());
     tracker->begin_stream(events->geometry(), 1);
 
     auto table = PoseCsvWriter::create(task.poses);

@@ -21,6 +21,7 @@ struct OfflineTrack {
     std::vector<std::string>
         models;                  ///< PATH[@x,y,theta[,scale]], after those of the configuration.
     disk::TrackerConfig config;  ///< Of the tracker; what concerns DDS and the store is unused.
+    std::string config_path;     ///< The file that it was read from; empty: none.
     /// Of every object; without: as the service takes those of its configuration.
     std::optional<tracker::TransformKind> transform;
     std::optional<tracker::EstimatorKind> estimator;

@@ -22,6 +22,12 @@ std::string name_of(const std::filesystem::path& path) {
     return name;
 }
 
+bool is_csv(const std::filesystem::path& path) { return path.extension() == ".csv"; }
+
+std::filesystem::path edges_path_of(std::filesystem::path path) {
+    return path.replace_filename(path.stem().string() + "_edges.csv");
+}
+
 /// Hands each row's two numbers to `take`.
 template <class Number, class Take>
 Result<void> read_pairs(const std::string& path, const char* first, const char* second, Take take) {
@@ -52,8 +58,7 @@ Result<Shape> read_csv(const std::filesystem::path& path) {
             return shape.points_px.size() <= max_shape_points;
         });
     if (!points) return tl::unexpected(points.error());
-    auto edges_path = path;
-    edges_path.replace_filename(path.stem().string() + "_edges.csv");
+    const auto edges_path = edges_path_of(path);
     std::error_code error;
     if (!std::filesystem::exists(edges_path, error)) return shape;
     const auto edges = read_pairs<std::uint16_t>(edges_path.string(), "from", "to",
@@ -95,7 +100,7 @@ Result<ModelFile> read_text(const std::string& path, FieldPlaces& places) {
 Result<ModelFile> read_model_file(const std::string& path) {
     ModelFile model;
     FieldPlaces places;
-    if (std::filesystem::path(path).extension() == ".csv") {
+    if (is_csv(path)) {
         auto shape = read_csv(path);
         if (!shape) return tl::unexpected(shape.error());
         model.shape = std::move(*shape);
@@ -109,6 +114,12 @@ Result<ModelFile> read_model_file(const std::string& path) {
     }
     model.shape = centred(std::move(model.shape));
     return model;
+}
+
+std::vector<std::string> model_file_paths(const std::string& path) {
+    std::vector<std::string> paths = {path};
+    if (is_csv(path)) paths.push_back(edges_path_of(path).string());
+    return paths;
 }
 
 Result<void> write_model_file(const std::string& path, const ModelFile& model) {

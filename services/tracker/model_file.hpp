@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "services/common/result.hpp"
 #include "services/tracker/core/pose.hpp"
@@ -24,6 +25,9 @@ struct ModelFile {
 /// "model_true_"; anything else as Protobuf text (idl/model.proto). Errors name file, line and
 /// cause; a shape that check() refuses is one.
 Result<ModelFile> read_model_file(const std::string& path);
+
+/// The files that read_model_file() reads: `path`, and that of the edges where it may be beside it.
+std::vector<std::string> model_file_paths(const std::string& path);
 
 /// Writes a model as Protobuf text, atomically.
 Result<void> write_model_file(const std::string& path, const ModelFile& model);

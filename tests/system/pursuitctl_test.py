@@ -13,6 +13,14 @@ class Pursuitctl(SystemTest):
     def offline(self, *arguments, code=0):
         return self.ctl(*arguments, code=code, dds=False)
 
+    def write(self, path, text):
+        with open(path, "w", encoding="latin-1") as file:
+            file.write(text)
+
+    def read(self, path):
+        with open(path, encoding="latin-1", newline="") as file:
+            return file.read()
+
     def simulate(self, *arguments):
         """A short scene; gives the paths of its events and truth."""
         events, truth = self.path("run.dat"), self.path("truth.csv")
@@ -33,6 +41,48 @@ class Pursuitctl(SystemTest):
                                       stderr=subprocess.PIPE, timeout=30, text=True)
             self.assertEqual(done.returncode, 1, f"{arguments}: {done.stderr}")
             self.assertIn("standard output: cannot write", done.stderr)
+
+    def test_no_output_of_a_simulation_is_its_scene_or_its_other_output(self):
+        scene, events = self.path("own.scene.textproto"), self.path("run.csv")
+        text = 'name: "own" duration_s: 0.01\n'
+        self.write(scene, text)
+        self.offline("simulate", scene, "--truth", scene, code=1)
+        self.assertIn(f"{scene}: is the input", self.ctl_err)
+        self.assertEqual(self.read(scene), text)
+        self.offline("simulate", scene, "--events", events, "--truth", events, code=1)
+        self.assertIn(f"{events}: is also the output", self.ctl_err)
+        self.assertFalse(os.path.exists(events))
+
+    def test_a_simulation_that_cannot_write_all_leaves_the_events_that_were_there(self):
+        events, truth = self.simulate()
+        for path in (events, truth):
+            self.write(path, "of an earlier run")
+        no_folder = self.path("no/such/folder/truth.csv")
+        for output in (["--truth", no_folder], ["--truth", truth, "--models", events]):
+            self.offline("simulate", "overtake", "--duration", "0.01", "--events", events, *output,
+                         code=1)
+            self.assertEqual(self.read(events), "of an earlier run", output)
+            self.assertEqual(self.read(truth), "of an earlier run", output)
+
+    def test_the_poses_of_track_are_not_written_over_what_it_reads(self):
+        events, _ = self.simulate()
+        model, edges = self.path("models/model_van.csv"), self.path("models/model_van_edges.csv")
+        config = self.path("tracker.textproto")
+        self.write(config, "pose_rate_hz: 1000\n")
+        for path in (model, edges, config, events):
+            before = self.read(path)
+            self.offline("track", "--events", events, "--model", model + "@36,138,0", "--config",
+                         config, "--poses", path, code=1)
+            self.assertIn(f"{path}: is the input", self.ctl_err)
+            self.assertEqual(self.read(path), before)
+
+    def test_the_page_of_a_report_is_not_written_over_the_truth(self):
+        recording, truth = self.path("run.mcap"), self.path("truth.csv")
+        self.write(recording, "")
+        self.write(truth, "t_us\n")
+        self.offline("report", recording, "--truth", truth, "--output", truth, code=1)
+        self.assertIn(f"{truth}: is the input", self.ctl_err)
+        self.assertEqual(self.read(truth), "t_us\n")
 
 
 if __name__ == "__main__":

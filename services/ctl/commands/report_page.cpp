@@ -38,8 +38,8 @@ void print_summary(const Report& page) {
 }
 
 int write_report(const ReportOptions& options) {
-    if (auto ok = check_is_not_input(options.output, options.recording); !ok) {
-        return report(ok.error());
+    for (const auto& input : {options.recording, options.truth}) {
+        if (auto ok = check_is_not_input(options.output, input); !ok) return report(ok.error());
     }
     const auto recorded = read_run(options.recording, options.slices,
                                    static_cast<std::int64_t>(options.slice_ms * 1000));

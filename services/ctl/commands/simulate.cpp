@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/common/output_file.hpp"
 #include "services/ctl/commands/offline_commands.hpp"
 #include "services/ctl/commands/report.hpp"
 #include "services/sensor/formats/formats.hpp"
@@ -45,13 +46,25 @@ Result<sensor::SimulationSummary> write(const SimulateOptions& options,
                                                 : (*writer)->write(events);
         },
         options.files);
-    if (auto ok = (*writer)->close(); summary && !ok) return tl::unexpected(ok.error());
+    if (!summary) return summary;
+    if (auto ok = (*writer)->close(); !ok) return tl::unexpected(ok.error());
     return summary;
+}
+
+Result<void> check_outputs(const SimulateOptions& options) {
+    for (const auto& output : {options.events, options.files.truth_path}) {
+        if (auto ok = check_is_not_input(output, options.scene); !ok) return ok;
+    }
+    if (options.events.empty()) return {};
+    return check_are_two_outputs(options.events, options.files.truth_path);
 }
 
 int simulate(SimulateOptions& options) {
     const auto scene = sensor::load_scene(options.scene, options.settings);
     if (!scene) return report(scene.error(), exit_configuration);
+    if (auto ok = check_outputs(options); !ok) return report(ok.error());
+    options.files.kept_paths = {options.scene};
+    if (!options.events.empty()) options.files.kept_paths.push_back(options.events);
     if (!options.models.empty()) options.files.models_dir = options.models;
     if (options.duration_s != 0) options.files.duration_s = options.duration_s;
     const auto summary = write(options, *scene);

@@ -19,7 +19,6 @@ namespace {
 struct TrackOptions {
     OfflineTrack task;
     FieldPlaces places;  ///< Of the task's configuration.
-    std::string config;
     std::vector<std::string> settings;
     std::string strategy;
     std::string estimator;
@@ -32,8 +31,8 @@ struct TrackOptions {
 
 Result<void> complete(TrackOptions& options) {
     auto& task = options.task;
-    if (!options.config.empty()) {
-        if (auto ok = read_text_file(options.config, task.config, &options.places); !ok) return ok;
+    if (!task.config_path.empty()) {
+        if (auto ok = read_text_file(task.config_path, task.config, &options.places); !ok) return ok;
     }
     if (auto ok = apply_settings(options.settings, task.config, &options.places); !ok) return ok;
     if (!options.preset.empty()) {
@@ -64,7 +63,7 @@ Result<void> complete(TrackOptions& options) {
     }
     // Before any event is read: the parts of a configuration that only a tracker can judge.
     if (const auto made = tracker::configured_tracker(task.config, 1); !made) {
-        return tl::unexpected(options.places.located(made.error(), options.config));
+        return tl::unexpected(options.places.located(made.error(), task.config_path));
     }
     return {};
 }
@@ -113,7 +112,7 @@ Run define_track(CLI::App& app) {
     app.add_option("--events", options->task.events, "Recording of events")->required();
     app.add_option("--model", options->task.models, "PATH[@x,y,theta[,scale]]; once an object");
     app.add_option("--poses", options->task.poses, "Table of poses to write, CSV")->required();
-    app.add_option("--config", options->config, "Configuration of the tracker");
+    app.add_option("--config", options->task.config_path, "Configuration of the tracker");
     app.add_option("--set", options->settings, "field=value over the configuration");
     app.add_option("--preset", options->preset, "The constants to begin with");
     app.add_option("--strategy", options->strategy, tracker::strategy_names());

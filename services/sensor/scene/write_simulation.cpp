@@ -5,10 +5,11 @@
 #include <cstdarg>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <utility>
 #include <vector>
 
 #include "services/common/atomic_file.hpp"
+#include "services/common/output_file.hpp"
 #include "services/sensor/scene/scene_simulator.hpp"
 
 namespace pursuit::sensor {
@@ -80,28 +81,37 @@ void print_truth(std::string& csv, const TruthRow& row) {
           row.visible_fraction, row.fit_px);
 }
 
-Result<void> write_models_of(const SceneSimulator& simulator, const std::string& folder) {
+Result<void> write_models_of(const SceneSimulator& simulator, const std::string& folder,
+                             const std::vector<std::string>& kept_paths) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) return fail(folder + ": cannot be made: " + error.message());
-    const auto write = [&](const std::string& name, const std::string& content) {
-        return write_file_atomically((std::filesystem::path(folder) / name).string(), content);
+    std::vector<std::pair<std::string, std::string>> files;
+    const auto add = [&](const std::string& name, std::string content) {
+        files.emplace_back((std::filesystem::path(folder) / name).string(), std::move(content));
     };
     for (const auto& m : simulator.models()) {
-        if (auto ok = write("model_" + m.name + ".csv", points_csv(m.model)); !ok) return ok;
-        if (auto ok = write("model_" + m.name + "_edges.csv", edges_csv(m.model)); !ok) return ok;
+        add("model_" + m.name + ".csv", points_csv(m.model));
+        add("model_" + m.name + "_edges.csv", edges_csv(m.model));
         if (m.model.points == m.true_model.points) continue;
-        if (auto ok = write("model_true_" + m.name + ".csv", points_csv(m.true_model)); !ok) {
-            return ok;
+        add("model_true_" + m.name + ".csv", points_csv(m.true_model));
+    }
+    add("start.csv", start_csv(simulator.models(), simulator.geometry()));
+    for (const auto& [path, content] : files) {
+        for (const auto& kept : kept_paths) {
+            if (auto ok = check_are_two_outputs(kept, path); !ok) return ok;
         }
     }
-    return write("start.csv", start_csv(simulator.models(), simulator.geometry()));
+    for (const auto& [path, content] : files) {
+        if (auto ok = write_file_atomically(path, content); !ok) return ok;
+    }
+    return {};
 }
 
 }  // namespace
 
 Result<void> write_models(const Scene& scene, std::uint64_t seed, const std::string& models_dir) {
-    return write_models_of(SceneSimulator(scene, seed), models_dir);
+    return write_models_of(SceneSimulator(scene, seed), models_dir, {});
 }
 
 Result<SimulationSummary> write_simulation(const Scene& scene, std::uint64_t seed,
@@ -118,21 +128,19 @@ Result<SimulationSummary> write_simulation(const Scene& scene, std::uint64_t see
     } else {
         return fail(scene.description().name() + ": never ends: state a duration");
     }
+    auto truth = OutputFile::create(files.truth_path);
+    if (!truth) return tl::unexpected(truth.error());
     if (files.models_dir) {
-        if (auto ok = write_models_of(simulator, *files.models_dir); !ok) {
+        auto kept_paths = files.kept_paths;
+        kept_paths.push_back(files.truth_path);
+        if (auto ok = write_models_of(simulator, *files.models_dir, kept_paths); !ok) {
             return tl::unexpected(ok.error());
         }
     }
 
-    std::ofstream truth(files.truth_path, std::ios::binary | std::ios::trunc);
     std::string csv =
         "t_us,object_id,model,x_px,y_px,a00,a01,a10,a11,theta_rad,scale_x,scale_y,"
         "visible_fraction,fit_px\n";
-    const auto write_truth = [&] {
-        truth << csv;
-        csv.clear();
-        return truth.good();
-    };
     std::vector<Event> slice;
     std::vector<Event> exposures;
     std::int64_t truth_us = 0;
@@ -141,7 +149,8 @@ Result<SimulationSummary> write_simulation(const Scene& scene, std::uint64_t see
              truth_us += truth_period_us) {
             for (const auto& row : simulator.truth(truth_us)) print_truth(csv, row);
         }
-        if (!write_truth()) return fail(files.truth_path + ": cannot be written");
+        if (auto ok = truth->write(csv); !ok) return tl::unexpected(ok.error());
+        csv.clear();
         const std::int64_t left_us = summary.duration_us - simulator.time_us();
         slice.clear();
         exposures.clear();
@@ -149,8 +158,7 @@ Result<SimulationSummary> write_simulation(const Scene& scene, std::uint64_t see
         if (auto ok = events(slice, exposures); !ok) return tl::unexpected(ok.error());
         summary.events += slice.size();
     }
-    truth.close();
-    if (!truth) return fail(files.truth_path + ": cannot be written");
+    if (auto ok = truth->close(); !ok) return tl::unexpected(ok.error());
     summary.duration_us = simulator.time_us();
     return summary;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "services/common/event.hpp"
 #include "services/common/result.hpp"
@@ -30,6 +31,9 @@ struct SimulationFiles {
 
     /// Instead of the scene's own; an endless scene needs one.
     std::optional<double> duration_s;
+
+    /// Files that no model may overwrite, besides the truth: inputs, and what else is written.
+    std::vector<std::string> kept_paths;
 };
 
 struct SimulationSummary {
@@ -37,7 +41,8 @@ struct SimulationSummary {
     std::int64_t duration_us = 0;
 };
 
-/// Simulates a scene from its start to its end and writes what came of it.
+/// Simulates a scene from its start to its end and writes what came of it. A truth that is there
+/// keeps what it holds until all that is to be written could be opened.
 Result<SimulationSummary> write_simulation(const Scene& scene, std::uint64_t seed,
                                            const EventSink& events, const SimulationFiles& files);
 

@@ -31,5 +31,51 @@ TEST(Output, may_be_another_file_of_the_same_content_or_not_be_there) {
     EXPECT_TRUE(check_is_not_input(input, folder.path("not_there.dat")));
 }
 
+TEST(Outputs, are_refused_where_both_are_or_would_be_one_file) {
+    const test::TemporaryFolder folder;
+    const std::string there = folder.file("a.csv", "old");
+    const std::string link = folder.path("link.csv");
+    std::filesystem::create_symlink(there, link);
+    const auto error = check_are_two_outputs(link, there).error().message;
+    EXPECT_THAT(error, testing::StartsWith(link + ": is also the output " + there));
+    const std::string other_name = folder.path(".") + "/new.csv";
+    EXPECT_FALSE(check_are_two_outputs(folder.path("new.csv"), other_name));
+    EXPECT_TRUE(check_are_two_outputs(folder.path("new.csv"), there));
+    EXPECT_TRUE(check_are_two_outputs(folder.path("new.csv"), folder.path("newer.csv")));
+}
+
+TEST(Output, keeps_what_a_file_holds_until_the_new_is_written) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.file("a.csv", "what was there");
+    {
+        auto given_up = OutputFile::create(path);
+        ASSERT_TRUE(given_up && given_up->write("new"));
+    }
+    EXPECT_EQ(test::content_of(path), "what was there");
+    auto file = OutputFile::create(path);
+    ASSERT_TRUE(file && file->write("new") && file->close());
+    EXPECT_EQ(test::content_of(path), "new");
+    auto empty = OutputFile::create(path);
+    ASSERT_TRUE(empty && empty->close());
+    EXPECT_EQ(test::content_of(path), "");
+}
+
+TEST(Output, of_more_than_its_buffer_replaces_all_that_was_there) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.file("a.csv", std::string(3'000'000, 'o'));
+    const std::string part(100'000, 'n');
+    auto file = OutputFile::create(path);
+    ASSERT_TRUE(file);
+    for (int i = 0; i < 10; ++i) ASSERT_TRUE(file->write(part));
+    ASSERT_TRUE(file->close());
+    EXPECT_EQ(test::content_of(path), std::string(1'000'000, 'n'));
+}
+
+TEST(Output, says_that_a_disk_is_full) {
+    auto file = OutputFile::create("/dev/full");
+    ASSERT_TRUE(file && file->write("new"));
+    EXPECT_THAT(file->close().error().message, testing::StartsWith("/dev/full: cannot write: "));
+}
+
 }  // namespace
 }  // namespace pursuit

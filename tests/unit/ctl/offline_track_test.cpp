@@ -86,6 +86,23 @@ TEST(OfflineTrack, does_not_write_over_its_recording) {
     EXPECT_EQ(test::content_of(task.events), standing_square());
 }
 
+TEST(OfflineTrack, does_not_write_over_a_model_its_edges_or_its_configuration) {
+    const test::TemporaryFolder folder;
+    auto task = task_of(folder, standing_square());
+    const auto edges = folder.file("model_square_edges.csv", "from,to\n0,1\n1,2\n2,3\n3,0\n");
+    const auto bar = folder.file("model_bar.csv", "x_px,y_px\n-9,0\n9,0\n0,3\n");
+    task.config_path = folder.file("tracker.textproto", "model: \"model_bar.csv\"\n");
+    task.config.add_model(bar);
+    for (const auto& input : {folder.path("model_square.csv"), edges, bar, task.config_path}) {
+        const auto content = test::content_of(input);
+        task.poses = input;
+        const auto done = track_offline(task);
+        ASSERT_FALSE(done) << input;
+        EXPECT_THAT(done.error().message, HasSubstr(input + ": is the input"));
+        EXPECT_EQ(test::content_of(input), content);
+    }
+}
+
 TEST(OfflineTrack, refuses_an_image_of_more_pixels_than_the_tracker_takes) {
     const test::TemporaryFolder folder;
     auto task = task_of(folder, standing_square());

@@ -113,6 +113,27 @@ TEST_F(WriteSimulation, reports_a_folder_it_cannot_write_to_and_an_error_of_the_
     EXPECT_EQ(summary.error().message, "disk full");
 }
 
+TEST_F(WriteSimulation, writes_no_model_over_the_truth_or_what_is_to_be_kept) {
+    SimulationFiles files;
+    files.truth_path = path("start.csv");
+    files.models_dir = folder_.string();
+    const auto none = [](std::span<const Event>, std::span<const Event>) -> Result<void> {
+        return {};
+    };
+    auto summary = write_simulation(parsed(moving_star), 1, none, files);
+    ASSERT_FALSE(summary);
+    EXPECT_THAT(summary.error().message, HasSubstr("start.csv: is also the output"));
+    files.truth_path = path("truth.csv");
+    files.kept_paths = {path("model_star.csv")};
+    std::ofstream(path("model_star.csv")) << "events";
+    std::ofstream(path("truth.csv")) << "of an earlier run";
+    summary = write_simulation(parsed(moving_star), 1, none, files);
+    ASSERT_FALSE(summary);
+    EXPECT_EQ(lines("model_star.csv"), std::vector<std::string>{"events"});
+    EXPECT_EQ(lines("truth.csv"), std::vector<std::string>{"of an earlier run"});
+    EXPECT_FALSE(std::filesystem::exists(path("model_star_edges.csv")));
+}
+
 TEST(Truth, refers_to_the_time_before_the_latency) {
     const Scene scene = parsed(
         "name: \"s\" duration_s: 1 sensor { latency_us: 3000 } layer { track: \"a\" polygon { "
