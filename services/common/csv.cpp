@@ -82,6 +82,11 @@ Result<bool> CsvReader::next() {
     }
 }
 
+Result<void> CsvReader::check_length() const {
+    if (fields_.size() >= columns_.size()) return {};
+    return fail(where() + ": the row ends before column " + columns_[fields_.size()]);
+}
+
 std::string CsvReader::not_a_number(std::size_t column) const {
     return where() + ": column " +
            (column < columns_.size() ? columns_[column] : std::to_string(column)) + ": \"" +

@@ -31,6 +31,10 @@ class CsvReader {
     /// Moves on to the next row: true; false at the end.
     Result<bool> next();
 
+    /// An error that names the column before which this row ends, where it is shorter than the line
+    /// of names: a table that was cut off.
+    Result<void> check_length() const;
+
     /// The value in a column of this row; empty where the row is shorter.
     std::string_view field(std::size_t column) const {
         return column < fields_.size() ? fields_[column] : std::string_view{};
@@ -47,6 +51,8 @@ class CsvReader {
         }
         return value;
     }
+
+    const std::string& path() const { return path_; }
 
     /// "file:line", of this row.
     std::string where() const { return path_ + ":" + std::to_string(line_number_); }

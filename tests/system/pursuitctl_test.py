@@ -84,6 +84,27 @@ class Pursuitctl(SystemTest):
         self.assertIn(f"{truth}: is the input", self.ctl_err)
         self.assertEqual(self.read(truth), "t_us\n")
 
+    def test_evaluate_names_the_option_or_the_column_that_makes_no_sense(self):
+        _, truth = self.simulate()
+        good = ["evaluate", "--poses", truth, "--truth", truth, "--model",
+                self.path("models/model_van.csv"), "--from", "0"]
+        self.assertIn("van", self.offline(*good))
+        for wrong in (["--speed-window", "nan"], ["--speed-window", "inf"], ["--fresh", "-1"],
+                      ["--fresh", "nan"]):
+            self.offline(*good, *wrong, code=105)
+            self.assertIn(wrong[0], self.ctl_err)
+        for from_s, to_s in (("nan", "0"), ("-5", "0"), ("0", "-1"), ("5", "3"), ("3", "3")):
+            self.offline(*good[:-1], from_s, "--to", to_s, code=1)
+            self.assertIn("--from, --to: a range must", self.ctl_err)
+        self.offline(*good[:-1], "5", code=1)
+        self.assertIn("no row of the truth lies in the scored range", self.ctl_err)
+        self.offline(*good, "--symmetry", "foo=3", code=1)
+        self.assertIn('--symmetry: "foo" is the name of none of the models', self.ctl_err)
+        poses = self.path("misspelt.csv")
+        self.write(poses, self.read(truth).replace("x_px", "x_pz", 1))
+        self.offline("evaluate", "--poses", poses, *good[3:], code=1)
+        self.assertIn(f"{poses}: has no column x_px", self.ctl_err)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -6,14 +6,18 @@
 #include <memory>
 
 #include "services/ctl/commands/offline_commands.hpp"
+#include "services/ctl/commands/option_values.hpp"
 #include "services/ctl/commands/report.hpp"
 #include "services/ctl/evaluation/score.hpp"
 #include "services/ctl/evaluation/track_table.hpp"
 #include "services/sensor/formats/formats.hpp"
+#include "services/sensor/range_reader.hpp"
 #include "services/tracker/model_file.hpp"
 
 namespace pursuit::ctl {
 namespace {
+
+constexpr double longest_ms = 86'400'000;
 
 struct EvaluateOptions {
     std::string poses;
@@ -40,7 +44,8 @@ Result<std::map<std::string, ModelPoints>> read_models(const std::vector<std::st
     return models;
 }
 
-Result<std::map<std::string, int>> read_symmetry(const std::vector<std::string>& arguments) {
+Result<std::map<std::string, int>> read_symmetry(const std::vector<std::string>& arguments,
+                                                 const std::map<std::string, ModelPoints>& models) {
     std::map<std::string, int> symmetry;
     for (const auto& argument : arguments) {
         const auto equals = argument.find('=');
@@ -52,7 +57,11 @@ Result<std::map<std::string, int>> read_symmetry(const std::vector<std::string>&
             turns > 360) {
             return fail("--symmetry: \"" + argument + "\" is not NAME=N with N from 1 to 360");
         }
-        symmetry[argument.substr(0, equals)] = turns;
+        const auto name = argument.substr(0, equals);
+        if (!models.contains(name)) {
+            return fail("--symmetry: \"" + name + "\" is the name of none of the models given");
+        }
+        symmetry[name] = turns;
     }
     return symmetry;
 }
@@ -72,9 +81,11 @@ Result<std::vector<Event>> read_events(const std::string& path) {
 }
 
 Result<std::vector<Score>> score(EvaluateOptions& options) {
+    const auto range = sensor::range_of_seconds(options.settings.from_s, options.settings.to_s);
+    if (!range) return fail("--from, --to: " + range.error().message);
     const auto models = read_models(options.models);
     if (!models) return tl::unexpected(models.error());
-    const auto symmetry = read_symmetry(options.symmetry);
+    const auto symmetry = read_symmetry(options.symmetry, *models);
     if (!symmetry) return tl::unexpected(symmetry.error());
     options.settings.symmetry = *symmetry;
     const auto poses = read_object_rows(options.poses);
@@ -119,9 +130,11 @@ Run define_evaluate(CLI::App& app) {
         ->capture_default_str();
     app.add_option("--fresh", settings.fresh_ms,
                    "Up to this age, ms, a pose is compared with the truth at its own time")
+        ->check(finite_range(0, longest_ms))
         ->capture_default_str();
     app.add_option("--speed-window", settings.speed_window_s,
                    "Half width of the slopes, seconds; 0: no speed error")
+        ->check(finite_range(0, longest_ms / 1000))
         ->capture_default_str();
     app.add_flag("--json", options->json, "JSON instead of a table");
     return [options] { return evaluate(*options); };

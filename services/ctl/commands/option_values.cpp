@@ -2,6 +2,7 @@
 #include "services/ctl/commands/option_values.hpp"
 
 #include <charconv>
+#include <cmath>
 
 #include "services/sensor/formats/formats.hpp"
 
@@ -13,6 +14,17 @@ std::string format_help() {
         names += (names.empty() ? "" : ", ") + std::string(format.name);
     }
     return "Format, where the file does not tell: " + names;
+}
+
+CLI::Validator finite_range(double least, double most) {
+    const CLI::Range range(least, most);
+    CLI::Validator validator = range;
+    validator.operation([range](std::string& text) {
+        double value = 0;
+        const bool is_nan = CLI::detail::lexical_cast(text, value) && std::isnan(value);
+        return is_nan ? "Value " + text + " is not a number" : range(text);
+    });
+    return validator;
 }
 
 Result<std::optional<Geometry>> geometry_of(const std::string& text) {

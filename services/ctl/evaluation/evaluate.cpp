@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "services/common/csv.hpp"
 #include "services/ctl/evaluation/pairs.hpp"
 #include "services/ctl/evaluation/paper_error.hpp"
 #include "services/ctl/evaluation/point_error.hpp"
@@ -119,6 +120,15 @@ Result<void> check_truth(const ObjectRows& truth) {
     return {};
 }
 
+/// The range from settings.from_s on, for people.
+std::string range_of(const EvaluationSettings& settings) {
+    std::string text = "from ";
+    append_number(text, settings.from_s);
+    if (settings.to_s <= 0) return text + " s on";
+    append_number(text += " to ", settings.to_s);
+    return text + " s";
+}
+
 const ObjectRows* match(const std::vector<ObjectRows>& poses, const ObjectRows& truth, bool by_id) {
     const ObjectRows* first = nullptr;
     for (const auto& rows : poses) {
@@ -142,10 +152,14 @@ Result<std::vector<Score>> evaluate(const std::vector<ObjectRows>& poses,
     const bool no_name_known = std::none_of(
         poses.begin(), poses.end(), [&](const auto& rows) { return models.contains(rows.model); });
     std::vector<Score> scores;
+    bool any_scored = false;
     for (const auto& rows : truth) {
         const auto model = models.find(rows.model);
         if (model == models.end()) continue;
         if (auto ok = check_truth(rows); !ok) return tl::unexpected(ok.error());
+        any_scored =
+            any_scored || std::any_of(rows.t_us.begin(), rows.t_us.end(),
+                                      [&](double t_us) { return is_scored(t_us, settings); });
         const auto turns = settings.symmetry.find(rows.model);
         auto score =
             score_object(match(poses, rows, no_name_known), rows, model->second,
@@ -155,6 +169,9 @@ Result<std::vector<Score>> evaluate(const std::vector<ObjectRows>& poses,
         });
         score.object = of_that_name == 1 ? rows.model : rows.model + "#" + rows.object_id;
         scores.push_back(std::move(score));
+    }
+    if (!scores.empty() && !any_scored) {
+        return fail("no row of the truth lies in the scored range, " + range_of(settings));
     }
     return scores;
 }

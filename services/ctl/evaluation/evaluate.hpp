@@ -33,7 +33,8 @@ struct EvaluationSettings {
 /// not finite holds the pose before it, but its state counts. Objects are matched by model name, or
 /// by object id where no name of the poses is one of the models. `events` adds D1, the paper's
 /// error: over windows of 200 us, the mean distance of the window's events that are within 6 px to
-/// the nearest point of the model, at the pose of the window's end.
+/// the nearest point of the model, at the pose of the window's end. Truth that is not whole is an
+/// error, and so is a scored range in which none of it lies.
 Result<std::vector<Score>> evaluate(const std::vector<ObjectRows>& poses,
                                     const std::vector<ObjectRows>& truth,
                                     const std::map<std::string, ModelPoints>& models,

@@ -33,14 +33,17 @@ ObjectRows started_rows(const ObjectRows& rows) {
     return kept;
 }
 
+bool is_scored(double t_us, const EvaluationSettings& settings) {
+    return t_us >= settings.from_s * 1e6 && (settings.to_s <= 0 || t_us <= settings.to_s * 1e6);
+}
+
 Pairs pair_up(const ObjectRows& started, const ObjectRows& truth,
               const EvaluationSettings& settings) {
-    const double end_us = settings.to_s > 0 ? settings.to_s * 1e6 : truth.t_us.back();
     const PoseCurve curve(truth.t_us, truth.pose);
     Pairs pairs;
     for (std::size_t k = 0; k < truth.t_us.size(); ++k) {
         const double t_us = truth.t_us[k];
-        if (t_us < settings.from_s * 1e6 || t_us > end_us) continue;
+        if (!is_scored(t_us, settings)) continue;
         ++pairs.wanted;
         const std::size_t rows = count_up_to(started.t_us, t_us);
         if (rows == 0) continue;

@@ -23,6 +23,9 @@ struct Pairs {
     std::size_t size() const { return t_us.size(); }
 };
 
+/// Whether that time of the truth is within the scored range.
+bool is_scored(double t_us, const EvaluationSettings& settings);
+
 Pairs pair_up(const ObjectRows& started, const ObjectRows& truth,
               const EvaluationSettings& settings);
 

@@ -53,6 +53,16 @@ TEST(CsvReader, names_line_and_column_of_what_is_no_number_of_its_kind) {
     EXPECT_FALSE(table->number<std::uint8_t>(7));
 }
 
+TEST(CsvReader, names_the_column_before_which_a_row_ends) {
+    const test::TemporaryFolder folder;
+    auto table = CsvReader::open(folder.file("t.csv", "a,b,c\n1,2,\n1,2\n"));
+    ASSERT_TRUE(*table->next());
+    EXPECT_TRUE(table->check_length());
+    ASSERT_TRUE(*table->next());
+    EXPECT_THAT(table->check_length().error().message,
+                HasSubstr("t.csv:3: the row ends before column c"));
+}
+
 TEST(AppendNumber, gives_text_that_reads_back_as_the_same_bits) {
     std::mt19937_64 random(1);
     for (int i = 0; i < 10'000; ++i) {

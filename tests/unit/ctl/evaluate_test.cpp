@@ -169,6 +169,19 @@ TEST(Evaluate, refuses_truth_that_nothing_can_be_compared_with) {
     EXPECT_THAT(error_of("1,a,1,1,1,0,0,1\n2,a,1,,1,0,0,1\n"), HasSubstr("is missing"));
 }
 
+TEST(Evaluate, refuses_a_range_in_which_no_truth_lies) {
+    const EvaluationCase files;
+    const auto truth = *read_object_rows(files.path("truth.csv"));
+    const std::map<std::string, ModelPoints> models = {{"bar", {{1, 0}, {-1, 0}}}};
+    EvaluationSettings settings;
+    settings.from_s = 100.5;
+    EXPECT_THAT(evaluate(truth, truth, models, nullptr, settings).error().message,
+                HasSubstr("no row of the truth lies in the scored range, from 100.5 s on"));
+    settings.to_s = 101;
+    EXPECT_THAT(evaluate(truth, truth, models, nullptr, settings).error().message,
+                HasSubstr("from 100.5 to 101 s"));
+}
+
 TEST(ReadObjectRows, sorts_by_time_and_makes_the_matrix_of_angle_and_scales) {
     const test::TemporaryFolder folder;
     const auto rows = read_object_rows(folder.file(
@@ -181,12 +194,29 @@ TEST(ReadObjectRows, sorts_by_time_and_makes_the_matrix_of_angle_and_scales) {
     EXPECT_EQ((*rows)[0].pose[1], (PoseNumbers{1, 2, 3, 0, 0, 1}));
 }
 
-TEST(ReadObjectRows, names_the_line_of_what_is_no_number) {
+std::string error_of_rows(const std::string& text) {
     const test::TemporaryFolder folder;
-    EXPECT_THAT(read_object_rows(folder.file("p.csv", "t_us,x_px\n1,2\n2,z\n")).error().message,
-                HasSubstr("p.csv:3: column x_px"));
-    EXPECT_THAT(read_object_rows(folder.file("p.csv", "x_px\n1\n")).error().message,
-                HasSubstr("no column t_us"));
+    const auto rows = read_object_rows(folder.file("p.csv", text));
+    return rows ? "" : rows.error().message;
+}
+
+TEST(ReadObjectRows, names_the_line_of_what_is_no_number_of_a_cut_row_and_of_an_unknown_state) {
+    const std::string header = "t_us,x_px,y_px,theta_rad,state\n1,2,2,0,LOST\n";
+    EXPECT_EQ(error_of_rows(header), "");
+    EXPECT_THAT(error_of_rows(header + "2,z,2,0,LOST\n"), HasSubstr("p.csv:3: column x_px"));
+    EXPECT_THAT(error_of_rows(header + "2,2,2"),
+                HasSubstr("p.csv:3: the row ends before column theta_rad"));
+    EXPECT_THAT(error_of_rows(header + "2,2,2,0,TRACKNG\n"),
+                HasSubstr("p.csv:3: column state: \"TRACKNG\" is not a state"));
+}
+
+TEST(ReadObjectRows, names_a_needed_column_that_is_not_there) {
+    EXPECT_THAT(error_of_rows("x_px\n1\n"), HasSubstr("p.csv: has no column t_us"));
+    EXPECT_THAT(error_of_rows("t_us,x_pz,y_px,theta_rad\n"), HasSubstr("has no column x_px"));
+    EXPECT_THAT(error_of_rows("t_us,x_px,theta_rad\n"), HasSubstr("has no column y_px"));
+    EXPECT_THAT(error_of_rows("t_us,x_px,y_px\n"), HasSubstr("a00"));
+    EXPECT_THAT(error_of_rows("t_us,x_px,y_px,a00,a01,a1O,a11\n"), HasSubstr("no column a10"));
+    EXPECT_EQ(error_of_rows("t_us,x_px,y_px,a00,a01,a10,a11\n"), "");
 }
 
 }  // namespace
