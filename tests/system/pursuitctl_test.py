@@ -105,6 +105,24 @@ class Pursuitctl(SystemTest):
         self.offline("evaluate", "--poses", poses, *good[3:], code=1)
         self.assertIn(f"{poses}: has no column x_px", self.ctl_err)
 
+    def test_report_prints_what_is_wrong_with_a_recording_and_check_fails_for_it(self):
+        events, _ = self.simulate()
+        recording, page = self.path("run.mcap"), self.path("page.html")
+        recorder = self.service("recorder", output=recording)
+        sensor = self.service("sensor", recording=events, rate=0, wait_for_subscribers=1)
+        self.assertEqual(sensor.wait(20), 0, sensor.err())
+        self.assertEqual(recorder.stop(), 0, recorder.err())
+        self.assertNotIn("recording: ", self.offline("report", recording, "--output", page))
+        with open(recording, "r+b") as file:
+            middle = os.path.getsize(recording) // 2
+            file.seek(middle)
+            byte = file.read(1)[0]
+            file.seek(middle)
+            file.write(bytes([byte ^ 1]))
+        text = self.offline("report", recording, "--output", page, "--check", code=1)
+        self.assertIn(f"recording: {recording}: byte ", text)
+        self.assertRegex(text, "faults in the recording +2\n")
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "services/common/output_file.hpp"
 #include "services/ctl/commands/offline_commands.hpp"
+#include "services/ctl/commands/option_values.hpp"
 #include "services/ctl/commands/report.hpp"
 #include "services/ctl/recording/recorded_run.hpp"
 #include "services/ctl/recording/run_report.hpp"
@@ -22,7 +25,7 @@ struct ReportOptions {
     bool check = false;
 };
 
-void print_summary(const Report& page) {
+void print_summary(const Report& page, const std::vector<std::string>& faults) {
     for (const auto& object : page.objects) {
         std::printf("%-12s %6zu poses  ", object.name.c_str(), object.poses.size());
         if (object.mean_error_px) std::printf("E %.2f px  ", *object.mean_error_px);
@@ -34,6 +37,7 @@ void print_summary(const Report& page) {
                         static_cast<unsigned long long>(count.count));
         }
     }
+    for (const auto& fault : faults) std::printf("recording: %s\n", fault.c_str());
     std::printf("%s\n", verdict(page).text.c_str());
 }
 
@@ -52,9 +56,8 @@ int write_report(const ReportOptions& options) {
     }
     const auto page = make_report(*recorded, truth, options.title);
     if (auto written = write_report(options.output, page); !written) return report(written.error());
-    print_summary(page);
-    const bool good = verdict(page).good && recorded->faults.empty();
-    return options.check && !good ? exit_failure : exit_success;
+    print_summary(page, recorded->faults);
+    return options.check && !verdict(page).good ? exit_failure : exit_success;
 }
 
 }  // namespace
@@ -69,7 +72,7 @@ Run define_report(CLI::App& app) {
         ->check(CLI::Range(0, 64))
         ->capture_default_str();
     app.add_option("--slice-ms", options->slice_ms, "Events in a picture, ms")
-        ->check(CLI::Range(0.1, 1000.0))
+        ->check(finite_range(0.1, 1000))
         ->capture_default_str();
     app.add_flag("--check", options->check,
                  "Exit code 1 unless every object was tracked to the end and nothing was lost");

@@ -15,7 +15,6 @@ namespace {
 
 namespace mcap = recorder::mcap;
 
-constexpr std::size_t most_poses = 10'000'000;
 constexpr std::size_t most_slice_events = 200'000;
 
 using Take = std::function<void(const mcap::MessageView&)>;
@@ -51,7 +50,12 @@ class Sequence {
 
 class FirstPass {
  public:
-    explicit FirstPass(RecordedRun& run) : run_(run) {}
+    FirstPass(RecordedRun& run, std::size_t most_poses) : run_(run), most_poses_(most_poses) {}
+
+    /// Poses of the last stream beyond the most that are kept.
+    [[nodiscard]] std::size_t poses_left_out() const {
+        return pose_count_ - std::min(pose_count_, most_poses_);
+    }
 
     void take(const mcap::MessageView& message) {
         const auto& topic = message.channel->topic;
@@ -83,6 +87,7 @@ class FirstPass {
             run_.first_t_us.reset();
             packets_ = {};
             poses_.clear();
+            pose_count_ = 0;
         }
         run_.geometry = {packet.width(), packet.height()};
         run_.packets_missing += packets_.missing(packet.sequence_number());
@@ -100,7 +105,7 @@ class FirstPass {
 
     void take_pose(const v1::ObjectPose& pose) {
         run_.poses_missing += poses_[pose.object_id()].missing(pose.sequence_number());
-        if (++pose_count_ > most_poses) return;
+        if (++pose_count_ > most_poses_) return;
         run_.poses[pose.object_id()].push_back({pose.t_us(), pose.state(), pose.x_px(), pose.y_px(),
                                                 pose.a00(), pose.a01(), pose.a10(), pose.a11(),
                                                 pose.confidence()});
@@ -117,6 +122,7 @@ class FirstPass {
     }
 
     RecordedRun& run_;
+    std::size_t most_poses_;
     Sequence packets_;
     std::map<std::uint32_t, Sequence> poses_;
     std::size_t pose_count_ = 0;
@@ -157,12 +163,17 @@ void fill_slices(RecordedRun& run, const v1::EventPacket& packet) {
 
 }  // namespace
 
-Result<RecordedRun> read_run(const std::string& path, std::size_t slices, std::int64_t slice_us) {
+Result<RecordedRun> read_run(const std::string& path, std::size_t slices, std::int64_t slice_us,
+                             std::size_t most_poses) {
     RecordedRun run;
-    FirstPass first(run);
+    FirstPass first(run, most_poses);
     auto faults = for_each_message(path, [&](const auto& message) { first.take(message); });
     if (!faults) return tl::unexpected(faults.error());
     run.faults = std::move(*faults);
+    if (const auto left_out = first.poses_left_out(); left_out > 0) {
+        run.faults.push_back(path + ": " + std::to_string(left_out) + " poses left out, after " +
+                             std::to_string(most_poses));
+    }
     place_slices(run, slices, slice_us);
     const auto again = for_each_message(path, [&](const mcap::MessageView& message) {
         if (message.channel->topic != topic::events) return;

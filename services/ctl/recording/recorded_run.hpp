@@ -51,12 +51,15 @@ struct RecordedRun {
     std::optional<v1::TrackerStatus> tracker;
     std::optional<v1::RecorderStatus> recorder;
     std::vector<RecordedSlice> slices;
-    std::vector<std::string> faults;  ///< Of the file: what was read is good all the same.
+    /// Of the file, and what was left out: what is here is good all the same.
+    std::vector<std::string> faults;
 };
 
 /// Reads a recording twice: once for all but the slices, and once for `slices` of them, evenly over
-/// the time that has poses, each of `slice_us`. Memory is bounded by the poses (at most 10 million)
-/// and the events of the slices (at most 200,000 each; what is more is left out of the picture).
-Result<RecordedRun> read_run(const std::string& path, std::size_t slices, std::int64_t slice_us);
+/// the time that has poses, each of `slice_us`. Memory is bounded by the poses (what is more than
+/// `most_poses` is left out and told among the faults) and the events of the slices (at most
+/// 200,000 each; what is more is left out of the picture).
+Result<RecordedRun> read_run(const std::string& path, std::size_t slices, std::int64_t slice_us,
+                             std::size_t most_poses = 10'000'000);
 
 }  // namespace pursuit::ctl

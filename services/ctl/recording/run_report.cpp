@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <utility>
 
 #include "services/ctl/evaluation/evaluate.hpp"
+#include "services/ctl/evaluation/interpolation.hpp"
 #include "services/ctl/evaluation/pairs.hpp"
 #include "services/ctl/evaluation/point_error.hpp"
 
@@ -40,10 +43,30 @@ ModelPoints model_points(const v1::RegisteredModel& model) {
     return points;
 }
 
-const ObjectRows* truth_of(const std::vector<ObjectRows>& truth, const std::string& name) {
+/// When the recording ends, in the stream's time.
+double end_us(const RecordedRun& run) {
+    std::optional<std::int64_t> last_us = run.last_t_us;
+    for (const auto& [id, poses] : run.poses) {
+        if (!poses.empty())
+            last_us = std::max(last_us.value_or(poses.back().t_us), poses.back().t_us);
+    }
+    return static_cast<double>(last_us.value_or(0));
+}
+
+/// The truth of an object as far as the recording goes; nothing where there is none.
+std::optional<ObjectRows> truth_of(const std::vector<ObjectRows>& truth, const RecordedRun& run,
+                                   const std::string& name) {
     const auto found = std::find_if(truth.begin(), truth.end(),
                                     [&](const auto& rows) { return rows.model == name; });
-    return found == truth.end() ? nullptr : &*found;
+    if (found == truth.end()) return std::nullopt;
+    ObjectRows rows = *found;
+    const auto count = count_up_to(rows.t_us, end_us(run));
+    rows.t_us.resize(count);
+    rows.pose.resize(count);
+    rows.state.resize(count);
+    rows.confidence.resize(count);
+    rows.visible.resize(count);
+    return count < 2 ? std::nullopt : std::optional(std::move(rows));
 }
 
 /// Error over time, and the score, of one object.
@@ -87,7 +110,7 @@ ReportObject make_object(const RecordedRun& run, std::uint32_t id, const ObjectR
     for (const auto& edge : model->second.edges()) {
         object.edges.emplace_back(edge.from_point(), edge.to_point());
     }
-    if (const auto* rows_of_truth = truth_of(truth, rows.model)) {
+    if (const auto rows_of_truth = truth_of(truth, run, rows.model)) {
         score_object(object, rows, *rows_of_truth, points);
     }
     return object;
@@ -99,6 +122,7 @@ void add_counts(Report& report, const RecordedRun& run) {
     counts.push_back({"packets recorded", run.packets, false});
     counts.push_back({"packets missing in the recording", run.packets_missing, true});
     counts.push_back({"poses missing in the recording", run.poses_missing, true});
+    counts.push_back({"faults in the recording", run.faults.size(), true});
     if (run.sensor) {
         counts.push_back({"sensor: events published", run.sensor->events_out(), false});
         counts.push_back({"sensor: events dropped", run.sensor->events_dropped(), true});
