@@ -29,7 +29,17 @@ int run(int argc, char** argv) {
         auto* own = group->add_subcommand(std::string(command.name), std::string(command.what));
         own->callback([&chosen, run = command.define(*own)] { chosen = run; });
     }
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::RequiredError& error) {
+        // What is required is missing because another word stands in its place.
+        const auto unknown = app.remaining(true);
+        if (unknown.empty()) return app.exit(error);
+        return app.exit(CLI::ExtrasError("\"" + unknown.front() + "\" is no command or option here",
+                                         CLI::ExitCodes::ExtrasError));
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error);
+    }
     return chosen();
 }
 

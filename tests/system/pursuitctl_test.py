@@ -123,6 +123,30 @@ class Pursuitctl(SystemTest):
         self.assertIn(f"recording: {recording}: byte ", text)
         self.assertRegex(text, "faults in the recording +2\n")
 
+    def test_a_word_that_is_unknown_is_named(self):
+        for arguments in (["nosuch"], ["model", "nosuch"], ["track", "nosuch", "--poses", "p.csv"]):
+            self.offline(*arguments, code=109)
+            self.assertIn('"nosuch" is no command or option here', self.ctl_err)
+        self.offline("track", code=106)
+        self.assertIn("--events is required", self.ctl_err)
+
+    def test_a_number_that_makes_no_sense_is_refused_with_its_option(self):
+        truth = ["--truth", self.path("truth.csv")]
+        for arguments in (["simulate", "overtake", *truth, "--seed", "-1"],
+                          ["simulate", "overtake", *truth, "--duration", "nan"],
+                          ["poses", "--count", "-1"], ["poses", "--for", "-1"],
+                          ["poses", "--for", "nan"], ["report", "a.mcap", "--slice-ms", "nan"]):
+            self.offline(*arguments, code=105)
+            self.assertIn(arguments[-2], self.ctl_err)
+
+    def test_track_says_that_no_event_lies_in_the_range(self):
+        events, _ = self.simulate()
+        track = ["track", "--events", events, "--model",
+                 self.path("models/model_van.csv") + "@36,138,0", "--poses", self.path("p.csv")]
+        self.offline(*track, "--from", "0.01")
+        self.offline(*track, "--from", "100", code=1)
+        self.assertIn(f"{events}: no event lies in the range of --from and --to", self.ctl_err)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -18,6 +18,7 @@
 #include "services/common/topics.hpp"
 #include "services/ctl/commands/dds_commands.hpp"
 #include "services/ctl/commands/dds_options.hpp"
+#include "services/ctl/commands/option_values.hpp"
 #include "services/ctl/commands/report.hpp"
 #include "services/ctl/live_poses.hpp"
 
@@ -213,8 +214,10 @@ Run define_poses(CLI::App& app) {
                     ->expected(0, 1);
     app.add_flag("--json", options->json, "One JSON object a line")->excludes(csv);
     app.add_option("--model", options->model, "Of this model alone");
-    app.add_option("--count", options->count, "End after so many poses");
-    app.add_option("--for", options->for_s, "End after so many seconds");
+    app.add_option("--count", options->count, "End after so many poses; 0: never")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--for", options->for_s, "End after so many seconds; 0: never")
+        ->check(finite_range(0, 1e9));
     app.add_flag("--strict", options->strict, "Fail when a pose was missed");
     return [options, csv] {
         options->to_csv = csv->count() > 0;

@@ -8,6 +8,7 @@
 
 #include "services/common/output_file.hpp"
 #include "services/ctl/commands/offline_commands.hpp"
+#include "services/ctl/commands/option_values.hpp"
 #include "services/ctl/commands/report.hpp"
 #include "services/sensor/formats/formats.hpp"
 #include "services/sensor/scene/scene.hpp"
@@ -91,6 +92,7 @@ Run define_simulate(CLI::App& app) {
                    "field=value over the scene, as sensor.threshold=0.3 or "
                    "layer[0].trajectory.vx_px_s=20");
     app.add_option("--seed", options->seed, "Of the scene's choices and noise")
+        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     app.add_option("--events", options->events,
                    "Recording to write; its extension is its format. Without: the truth alone");
@@ -98,7 +100,7 @@ Run define_simulate(CLI::App& app) {
         ->required();
     app.add_option("--models", options->models, "Folder for the models and their start poses");
     app.add_option("--duration", options->duration_s, "Seconds; 0: as the scene says")
-        ->check(CLI::Range(0.0, 86400.0))
+        ->check(finite_range(0, 86'400))
         ->capture_default_str();
     return [options] { return simulate(*options); };
 }

@@ -102,6 +102,10 @@ int track(TrackOptions& options) {
                  static_cast<unsigned long long>(counters.events_used),
                  static_cast<unsigned long long>(counters.poses_emitted));
     tell_losses(counters);
+    const bool is_whole = range->start_us == 0 && range->end_us == 0;
+    if (counters.events_in == 0 && !is_whole) {
+        return report({options.task.events + ": no event lies in the range of --from and --to"});
+    }
     return exit_success;
 }
 
