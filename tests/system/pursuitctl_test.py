@@ -147,6 +147,10 @@ class Pursuitctl(SystemTest):
         self.offline(*track, "--from", "100", code=1)
         self.assertIn(f"{events}: no event lies in the range of --from and --to", self.ctl_err)
 
+    def test_the_help_of_model_register_tells_its_estimator_whatever_the_preset(self):
+        text = " ".join(self.offline("model", "register", "--help").split())
+        self.assertIn("without: kalman, whatever the tracker's preset", text)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -25,6 +25,8 @@ struct RegisterOptions {
     bool search = false;
 };
 
+tracker::EstimatorKind default_estimator() { return tracker::presets().front().estimator; }
+
 Result<v1::TrackerRequest> register_request(const RegisterOptions& options) {
     const auto transform = tracker::parse_transform(options.transform);
     if (!transform && !options.transform.empty()) {
@@ -32,7 +34,8 @@ Result<v1::TrackerRequest> register_request(const RegisterOptions& options) {
                     tracker::transform_names());
     }
     auto estimator = tracker::parse_estimator(options.estimator);
-    if (options.estimator.empty()) estimator = tracker::presets().front().estimator;
+    // A request names its estimator, and no topic tells which preset the tracker has.
+    if (options.estimator.empty()) estimator = default_estimator();
     if (!estimator) {
         return fail("--estimator: \"" + options.estimator + "\" is not " +
                     tracker::estimator_names());
@@ -137,7 +140,10 @@ Run define_model_register(CLI::App& app) {
     add_dds_options(app, options->dds);
     app.add_option("model", options->model, "PATH[@x,y,theta[,scale]], px and rad")->required();
     app.add_option("--transform", options->transform, tracker::transform_names());
-    app.add_option("--estimator", options->estimator, tracker::estimator_names());
+    app.add_option("--estimator", options->estimator,
+                   tracker::estimator_names() +
+                       "; without: " + std::string(tracker::to_string(default_estimator())) +
+                       ", whatever the tracker's preset");
     app.add_option("--set", options->settings, "name=value: a parameter of the object")->take_all();
     app.add_option("--object-id", options->object_id, "0: the tracker chooses");
     app.add_option("--apply-at", options->apply_at_us, "Sensor time, us; 0: now");
