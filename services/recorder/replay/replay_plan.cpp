@@ -47,6 +47,7 @@ class Pass {
     void add(v1::TrackerRequest request, Callee callee, std::size_t stream, std::size_t order);
     void plan_calls();
     std::optional<std::uint32_t> sensor_of(const std::string& instance) const;
+    std::uint32_t likely_sensor_of(const std::string& instance) const;
 
     template <class T>
     std::optional<T> decode(mcap::ByteSpan data) {
@@ -152,6 +153,11 @@ std::optional<std::uint32_t> Pass::sensor_of(const std::string& instance) const 
     return found == sensor_of_.end() ? std::nullopt : std::optional(found->second);
 }
 
+/// Where no tracker said so: the sensor heard first.
+std::uint32_t Pass::likely_sensor_of(const std::string& instance) const {
+    return sensor_of(instance).value_or(streams_.first_sensor().value_or(0));
+}
+
 void Pass::add(v1::TrackerRequest request, Callee callee, std::size_t stream, std::size_t order) {
     if (gathered_.size() >= most_planned_calls) {
         too_many_ = true;
@@ -165,8 +171,8 @@ void Pass::add(v1::TrackerRequest request, Callee callee, std::size_t stream, st
 void Pass::plan_calls() {
     const bool several = sensor_of_.size() > 1;
     for (auto& [call, callee] : gathered_) {
-        if (!callee.sensor_id) callee.sensor_id = sensor_of(callee.instance);
-        const auto sensor_id = callee.sensor_id.value_or(streams_.first_sensor().value_or(0));
+        const auto sensor_id =
+            callee.sensor_id ? *callee.sensor_id : likely_sensor_of(callee.instance);
         if (several) {  // each call to the tracker that it was for
             for (const auto& [instance, its_sensor_id] : sensor_of_) {
                 if (its_sensor_id == sensor_id) call.request.header().instance_name(instance);
@@ -183,7 +189,8 @@ void Pass::plan_calls() {
 }
 
 ReplayPlan Pass::finish() {
-    for (auto& [request, sensor_id, instance, stream] : before_.calls()) {
+    const auto sensor_of = [this](const std::string& name) { return likely_sensor_of(name); };
+    for (auto& [request, sensor_id, instance, stream] : before_.calls(sensor_of)) {
         add(std::move(request), {sensor_id, std::move(instance)}, stream, 0);
     }
     plan_calls();

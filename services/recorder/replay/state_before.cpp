@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/recorder/replay/state_before.hpp"
 
+#include <algorithm>
+
 #include "services/recorder/replay/planned_call.hpp"
 
 namespace pursuit::recorder {
@@ -41,6 +43,14 @@ v1::TrackerRequest parameters_request(const v1::TrackerSettings& settings) {
     return request;
 }
 
+/// Whether each of `wanted` is there with that value.
+bool contains(const std::vector<v1::NamedValue>& values,
+              const std::vector<v1::NamedValue>& wanted) {
+    return std::all_of(wanted.begin(), wanted.end(), [&](const v1::NamedValue& value) {
+        return std::find(values.begin(), values.end(), value) != values.end();
+    });
+}
+
 }  // namespace
 
 void StateBefore::take(const v1::RegisteredModel& model, std::size_t stream) {
@@ -57,22 +67,46 @@ void StateBefore::take(const RecordedCall& call) {
     const auto& request = call.request.call();
     const auto kind = request._d();
     const auto& result = call.reply.result();
+    const std::string instance = call.reply.header().instance_name().to_string();
     if (kind == v1::TRACKER_REGISTER_MODEL && result._d() == v1::TRACKER_REGISTER_MODEL &&
         !result.register_model().already_registered()) {
-        registered_.insert(result.register_model().object_id());
+        registered_.emplace(instance, result.register_model().object_id());
     }
-    const bool of_all =
-        kind == v1::TRACKER_SET_PARAMETERS && request.set_parameters().name().to_string().empty();
-    if (kind == v1::TRACKER_SET_OCCLUSION_STRATEGY || of_all) {
-        settings_called_.insert(call.reply.effective_time_us());
+    const std::pair place(instance, call.reply.effective_time_us());
+    if (kind == v1::TRACKER_SET_OCCLUSION_STRATEGY) {
+        const auto& set = request.set_occlusion_strategy();
+        settings_calls_.emplace(place, SettingsCall{set.strategy(), set.parameters()});
+    } else if (kind == v1::TRACKER_SET_PARAMETERS &&
+               request.set_parameters().name().to_string().empty()) {
+        const auto& set = request.set_parameters();
+        settings_calls_.emplace(place, SettingsCall{std::nullopt, set.parameters()});
     }
 }
 
-std::vector<StateBefore::Call> StateBefore::calls() const {
+bool StateBefore::shows(const v1::TrackerSettings& settings, const SettingsCall& call) {
+    if (!call.strategy) return contains(settings.parameters(), call.parameters);
+    return settings.strategy() == *call.strategy &&
+           contains(settings.strategy_parameters(), call.parameters);
+}
+
+bool StateBefore::was_called_for(const v1::TrackerSettings& settings) const {
+    // All that a tracker does before its first event is at time 0. Its calls come after what is
+    // told here, so that it does no harm where they brought it about.
+    if (settings.effective_time_us() == 0) return false;
+    const auto [first, last] = settings_calls_.equal_range(
+        {settings.instance().to_string(), settings.effective_time_us()});
+    return std::any_of(first, last, [&](const auto& each) { return shows(settings, each.second); });
+}
+
+std::vector<StateBefore::Call> StateBefore::calls(const SensorOf& sensor_of) const {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> registered;  // by sensor and object
+    for (const auto& [instance, object_id] : registered_) {
+        registered.emplace(sensor_of(instance), object_id);
+    }
     std::vector<Call> calls;
     for (const auto& [instance, first] : first_settings_) {
         const auto& [settings, stream] = first;
-        if (settings_called_.contains(settings.effective_time_us())) continue;
+        if (was_called_for(settings)) continue;
         const auto sensor_id = settings.sensor_id();
         calls.push_back({strategy_request(settings), sensor_id, instance, stream});
         if (settings.parameters().empty()) continue;
@@ -80,7 +114,7 @@ std::vector<StateBefore::Call> StateBefore::calls() const {
     }
     for (const auto& [key, first] : first_models_) {
         const auto& [model, stream] = first;
-        if (registered_.contains(model.object_id())) continue;
+        if (registered.contains(key)) continue;
         calls.push_back({register_request(model), model.sensor_id(), "", stream});
     }
     return calls;

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -33,15 +35,28 @@ class StateBefore {
         std::size_t stream = 0;
     };
 
-    /// Settings first, because models take gains from them.
-    std::vector<Call> calls() const;
+    /// Which sensor a tracker is for, by its instance.
+    using SensorOf = std::function<std::uint32_t(const std::string& instance)>;
+
+    std::vector<Call> calls(const SensorOf& sensor_of) const;
 
  private:
+    /// What a recorded call set for a tracker as a whole.
+    struct SettingsCall {
+        std::optional<v1::OcclusionStrategy> strategy;  ///< With its parameters; else the others.
+        std::vector<v1::NamedValue> parameters;
+    };
+
+    static bool shows(const v1::TrackerSettings& settings, const SettingsCall& call);
+    bool was_called_for(const v1::TrackerSettings& settings) const;
+
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<v1::RegisteredModel, std::size_t>>
         first_models_;  ///< By sensor and object; with the stream.
     std::map<std::string, std::pair<v1::TrackerSettings, std::size_t>> first_settings_;
-    std::set<std::uint32_t> registered_;      ///< Object ids that a recorded call registered.
-    std::set<std::int64_t> settings_called_;  ///< Effective times of recorded calls on settings.
+    /// Objects that a recorded call registered, by the tracker's instance: each counts its own ids.
+    std::set<std::pair<std::string, std::uint32_t>> registered_;
+    /// By the tracker's instance and the time from which they hold.
+    std::multimap<std::pair<std::string, std::int64_t>, SettingsCall> settings_calls_;
 };
 
 }  // namespace pursuit::recorder

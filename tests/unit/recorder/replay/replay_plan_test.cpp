@@ -30,6 +30,8 @@ class ReplayPlanOf : public ::testing::Test {
         writer_.emplace(*mcap::Writer::create(std::move(*output), {}, 0));
         requests_ = channel(topic::tracker_request);
         replies_ = channel(topic::tracker_reply);
+        models_ = channel(topic::models);
+        settings_ = channel(topic::tracker_settings);
     }
 
     ~ReplayPlanOf() override { std::filesystem::remove(path_); }
@@ -51,6 +53,36 @@ class ReplayPlanOf : public ::testing::Test {
         reply.effective_time_us(effective_us);
         reply.result().remove_model({});
         write(replies_, serialized(reply));
+    }
+
+    /// A call that registered object 1 at that tracker.
+    void record_registration(const std::string& instance, const std::string& model) {
+        v1::TrackerRequest request;
+        v1::RegisterModel call;
+        call.name(model);
+        request.call().register_model(call);
+        write(requests_, serialized(request));
+        v1::TrackerReply reply;
+        reply.header().instance_name(instance);
+        v1::RegisterModelResult result;
+        result.object_id(1);
+        reply.result().register_model(result);
+        write(replies_, serialized(reply));
+    }
+
+    /// A tracker tells that it is there, and of its object 1.
+    void record_tracker(const std::string& instance, std::uint32_t sensor_id,
+                        const std::string& model_name) {
+        v1::TrackerSettings settings;
+        settings.instance(instance);
+        settings.sensor_id(sensor_id);
+        write(settings_, serialized(settings));
+        v1::RegisteredModel model;
+        model.sensor_id(sensor_id);
+        model.object_id(1);
+        model.registered(true);
+        model.name(model_name);
+        write(models_, serialized(model));
     }
 
     /// Which calls the plan makes: model names and times, in turn.
@@ -85,6 +117,8 @@ class ReplayPlanOf : public ::testing::Test {
     std::optional<mcap::Writer> writer_;
     std::uint16_t requests_ = 0;
     std::uint16_t replies_ = 0;
+    std::uint16_t models_ = 0;
+    std::uint16_t settings_ = 0;
     std::uint32_t sequence_ = 0;
     std::int64_t time_ns_ = 1'700'000'000'000'000'000;
 };
@@ -133,6 +167,15 @@ TEST_F(ReplayPlanOf, a_call_without_reply_is_left_out_and_counted) {
     record_request(1);
     EXPECT_TRUE(planned().empty());
     EXPECT_EQ(unanswered_, 1U);
+}
+
+TEST_F(ReplayPlanOf, an_object_is_registered_again_though_another_tracker_gave_its_id_in_a_call) {
+    record_registration("right", "van");
+    record_tracker("left", 1, "car");
+    record_tracker("right", 2, "van");
+    EXPECT_EQ(planned(), (std::vector<std::string>{
+                             "set occlusion strategy at 0 us", "register model car at 0 us",
+                             "set occlusion strategy at 0 us", "register model van at 0 us"}));
 }
 
 }  // namespace
