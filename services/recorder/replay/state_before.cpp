@@ -2,6 +2,7 @@
 #include "services/recorder/replay/state_before.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "services/recorder/replay/planned_call.hpp"
 
@@ -24,21 +25,21 @@ v1::TrackerRequest register_request(const v1::RegisteredModel& model) {
     return request;
 }
 
-v1::TrackerRequest strategy_request(const v1::TrackerSettings& settings) {
+v1::TrackerRequest strategy_request(const v1::TrackerSettings& settings, std::int64_t time_us) {
     v1::SetOcclusionStrategy call;
     call.strategy(settings.strategy());
     call.parameters(settings.strategy_parameters());
     v1::TrackerRequest request;
-    request.apply_at_us(settings.effective_time_us());
+    request.apply_at_us(time_us);
     request.call().set_occlusion_strategy(call);
     return request;
 }
 
-v1::TrackerRequest parameters_request(const v1::TrackerSettings& settings) {
+v1::TrackerRequest parameters_request(const v1::TrackerSettings& settings, std::int64_t time_us) {
     v1::SetParameters call;
     call.parameters(settings.parameters());
     v1::TrackerRequest request;
-    request.apply_at_us(settings.effective_time_us());
+    request.apply_at_us(time_us);
     request.call().set_parameters(call);
     return request;
 }
@@ -103,20 +104,32 @@ std::vector<StateBefore::Call> StateBefore::calls(const SensorOf& sensor_of) con
     for (const auto& [instance, object_id] : registered_) {
         registered.emplace(sensor_of(instance), object_id);
     }
+    std::vector<Call> models;
+    // Of each sensor and stream the time of the first; settings hold no later, because they would
+    // take from a model the parameters of its own.
+    std::map<std::pair<std::uint32_t, std::size_t>, std::int64_t> first_us;
+    for (const auto& [key, first] : first_models_) {
+        const auto& [model, stream] = first;
+        if (registered.contains(key)) continue;
+        const auto time_us = model.effective_time_us();
+        const auto known = first_us.try_emplace({model.sensor_id(), stream}, time_us).first;
+        known->second = std::min(known->second, time_us);
+        models.push_back({register_request(model), model.sensor_id(), "", stream});
+    }
     std::vector<Call> calls;
     for (const auto& [instance, first] : first_settings_) {
         const auto& [settings, stream] = first;
         if (was_called_for(settings)) continue;
         const auto sensor_id = settings.sensor_id();
-        calls.push_back({strategy_request(settings), sensor_id, instance, stream});
+        const auto model = first_us.find({sensor_id, stream});
+        const auto time_us = model == first_us.end()
+                                 ? settings.effective_time_us()
+                                 : std::min(settings.effective_time_us(), model->second);
+        calls.push_back({strategy_request(settings, time_us), sensor_id, instance, stream});
         if (settings.parameters().empty()) continue;
-        calls.push_back({parameters_request(settings), sensor_id, instance, stream});
+        calls.push_back({parameters_request(settings, time_us), sensor_id, instance, stream});
     }
-    for (const auto& [key, first] : first_models_) {
-        const auto& [model, stream] = first;
-        if (registered.contains(key)) continue;
-        calls.push_back({register_request(model), model.sensor_id(), "", stream});
-    }
+    std::move(models.begin(), models.end(), std::back_inserter(calls));
     return calls;
 }
 

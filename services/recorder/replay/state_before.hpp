@@ -38,6 +38,7 @@ class StateBefore {
     /// Which sensor a tracker is for, by its instance.
     using SensorOf = std::function<std::uint32_t(const std::string& instance)>;
 
+    /// Of each sensor settings first, because models take gains from them.
     std::vector<Call> calls(const SensorOf& sensor_of) const;
 
  private:

@@ -104,6 +104,19 @@ TEST(StateBefore, brings_about_settings_then_models_each_as_told_first) {
     EXPECT_EQ(calls[2].request.call().register_model().object_id(), 3U);
 }
 
+TEST(StateBefore,
+     brings_about_settings_no_later_than_the_models_whose_own_parameters_they_would_take) {
+    StateBefore state;
+    state.take(model_told(3, "car"), 0);
+    auto earlier = model_told(4, "van");
+    earlier.effective_time_us(300);
+    state.take(earlier, 0);
+    state.take(settings_told(900, true), 0);
+    EXPECT_EQ(names_of(state),
+              (Texts{"set occlusion strategy at 300 us", "set parameters  at 300 us",
+                     "register model car at 500 us", "register model van at 300 us"}));
+}
+
 TEST(StateBefore, sets_no_parameters_where_none_were_told) {
     StateBefore state;
     state.take(settings_told(40, false), 0);
