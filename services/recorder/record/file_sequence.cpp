@@ -2,11 +2,20 @@
 #include "services/recorder/record/file_sequence.hpp"
 
 #include <filesystem>
+#include <utility>
 
 #include "services/recorder/packet_fields.hpp"
 #include "services/recorder/record/output_path.hpp"
 
 namespace pursuit::recorder {
+namespace {
+
+void add(const TopicTotals& some, TopicTotals& sum) {
+    sum.messages += some.messages;
+    sum.bytes += some.bytes;
+}
+
+}  // namespace
 
 FileSequence::FileSequence(FileOptions options, const std::vector<TopicFacts>& topics,
                            RecordingFile::Discovered discovered, OnError on_error)
@@ -14,7 +23,8 @@ FileSequence::FileSequence(FileOptions options, const std::vector<TopicFacts>& t
       topics_(topics),
       discovered_(std::move(discovered)),
       on_error_(std::move(on_error)),
-      in_chunk_(topics.size()) {
+      in_chunk_(topics.size()),
+      unflushed_(topics.size()) {
     totals_.topics.resize(topics.size());
     totals_.topics_lost.resize(topics.size());
 }
@@ -23,7 +33,10 @@ Result<void> FileSequence::begin(const Now& now) { return open(now); }
 
 Result<void> FileSequence::open(const Now& now) {
     const auto path = free_path(expand_time(options_.output, now.host_ns));
-    auto made = RecordingFile::create(path, options_.writer, now.steady_us, topics_, discovered_);
+    auto made = options_.create(path).and_then([&](std::unique_ptr<mcap::Output> output) {
+        return RecordingFile::create(std::move(output), path, options_.writer, now.steady_us,
+                                     topics_, discovered_);
+    });
     if (!made) {
         std::error_code ignored;  // the error at hand is the one that matters
         if (std::filesystem::is_regular_file(path, ignored) &&
@@ -104,7 +117,8 @@ void FileSequence::give_up(const std::string& error, const Now& now) {
     if (file_) {
         account(now);
         for (std::size_t i = 0; i < in_chunk_.size(); ++i) {
-            lose(i, in_chunk_[i].messages, totals_.lost_disk);
+            lose(i, unflushed_[i].messages + in_chunk_[i].messages, totals_.lost_disk);
+            unflushed_[i] = {};
             in_chunk_[i] = {};
         }
         const bool empty = file_->totals().chunks == 0;
@@ -124,14 +138,14 @@ void FileSequence::account(const Now& now) {
     const auto& file = file_->totals();
     totals_.bytes_written += file.bytes - accounted_.bytes;
     if (file.flushed_bytes != accounted_.flushed_bytes) totals_.last_flush_host_ns = now.host_ns;
-    if (file.chunks != accounted_.chunks) {
-        totals_.chunks_written += file.chunks - accounted_.chunks;
-        for (std::size_t i = 0; i < in_chunk_.size(); ++i) {
-            totals_.messages += in_chunk_[i].messages;
-            totals_.topics[i].messages += in_chunk_[i].messages;
-            totals_.topics[i].bytes += in_chunk_[i].bytes;
-            in_chunk_[i] = {};
-        }
+    totals_.chunks_written += file.chunks - accounted_.chunks;
+    const bool closed = file.chunks != accounted_.chunks;
+    const bool flushed = file.flushed_bytes == file.bytes;  // every chunk that is closed
+    for (std::size_t i = 0; i < in_chunk_.size(); ++i) {
+        if (closed) add(std::exchange(in_chunk_[i], {}), unflushed_[i]);
+        if (!flushed) continue;
+        totals_.messages += unflushed_[i].messages;
+        add(std::exchange(unflushed_[i], {}), totals_.topics[i]);
     }
     accounted_.bytes = file.bytes;
     accounted_.flushed_bytes = file.flushed_bytes;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct FileOptions {
     std::string output;  ///< Path; %t becomes the UTC time at which a file is begun.
     mcap::WriterOptions writer;
     std::uint64_t max_file_bytes = 0;  ///< 0: no bound.
+
+    using Create = std::function<Result<std::unique_ptr<mcap::Output>>(const std::string& path)>;
+    Create create = mcap::FileOutput::create;
 };
 
 struct TopicTotals {
@@ -37,7 +41,7 @@ struct FileTotals {
     std::uint64_t bytes_written = 0;
     std::uint64_t chunks_written = 0;
     std::int64_t last_flush_host_ns = 0;
-    std::uint64_t messages = 0;   ///< In closed chunks.
+    std::uint64_t messages = 0;   ///< In chunks that are flushed.
     std::uint64_t lost_disk = 0;  ///< Could not be written.
     std::uint64_t lost_refused = 0;
     std::uint64_t gaps = 0;  ///< Breaks of event streams.
@@ -53,8 +57,9 @@ struct FileTotals {
 ///               fault ── samples are dropped and counted ──┘
 ///
 /// A file that was given up stays, readable up to its last chunk; one that holds nothing is
-/// removed. A message counts as recorded when its chunk is in the file, and as lost when the chunk
-/// cannot be written. One thread.
+/// removed. A message counts as recorded when its chunk is flushed to the disk, and as lost when
+/// the chunk cannot be written or flushed: what the kernel could not flush it may have dropped. One
+/// thread.
 class FileSequence {
  public:
     using OnError = std::function<void(const std::string&)>;
@@ -89,8 +94,9 @@ class FileSequence {
     RecordingFile::Discovered discovered_;
     OnError on_error_;
     std::optional<RecordingFile> file_;
-    mcap::WriterTotals accounted_;       ///< Of file_, what is in totals_ already.
-    std::vector<TopicTotals> in_chunk_;  ///< The open chunk, by topic.
+    mcap::WriterTotals accounted_;        ///< Of file_, what is in totals_ already.
+    std::vector<TopicTotals> in_chunk_;   ///< The open chunk, by topic.
+    std::vector<TopicTotals> unflushed_;  ///< Closed chunks, likewise.
     std::int64_t retry_at_us_ = 0;
     StreamGaps gaps_;
     FileTotals totals_;

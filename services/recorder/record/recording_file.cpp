@@ -6,13 +6,12 @@
 
 namespace pursuit::recorder {
 
-Result<RecordingFile> RecordingFile::create(const std::string& path,
+Result<RecordingFile> RecordingFile::create(std::unique_ptr<mcap::Output> output,
+                                            const std::string& path,
                                             const mcap::WriterOptions& options, std::int64_t now_us,
                                             const std::vector<TopicFacts>& topics,
                                             Discovered discovered) {
-    auto output = mcap::FileOutput::create(path);
-    if (!output) return tl::unexpected(output.error());
-    auto writer = mcap::Writer::create(std::move(*output), options, now_us);
+    auto writer = mcap::Writer::create(std::move(output), options, now_us);
     if (!writer) return tl::unexpected(writer.error());
     return RecordingFile(path, std::move(*writer), topics, std::move(discovered));
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +29,9 @@ class RecordingFile {
     /// What a writer offered, from its GUID.
     using Discovered = std::function<OfferedQos(const TopicFacts&, const Guid&)>;
 
-    static Result<RecordingFile> create(const std::string& path, const mcap::WriterOptions& options,
+    /// `path` is for messages.
+    static Result<RecordingFile> create(std::unique_ptr<mcap::Output> output,
+                                        const std::string& path, const mcap::WriterOptions& options,
                                         std::int64_t now_us, const std::vector<TopicFacts>& topics,
                                         Discovered discovered);
 

@@ -13,6 +13,7 @@
 #include "services/recorder/record/output_path.hpp"
 #include "services/recorder/record/related_sample.hpp"
 #include "services/recorder/record/sample_queue.hpp"
+#include "tests/unit/recorder/mcap_sample.hpp"
 
 namespace pursuit::recorder {
 namespace {
@@ -160,6 +161,31 @@ TEST_F(Files, that_cannot_be_written_are_tried_again_every_second_and_what_is_lo
     EXPECT_EQ(files.totals().lost_disk, 1U);
     EXPECT_EQ(files.totals().topics_lost[0], 1U);
     EXPECT_EQ(errors_.size(), 1U);
+}
+
+TEST_F(Files, that_cannot_be_flushed_count_what_they_hold_as_lost) {
+    for (const std::int64_t flush_interval_us : {0, 1'000'000}) {
+        const auto disk = std::make_shared<mcap::MemoryOutput::Disk>();
+        FileOptions options{path("a.mcap"), {}, 0, [&](auto&) {
+                                return std::make_unique<mcap::MemoryOutput>(disk);
+                            }};
+        options.writer.flush_interval_us = flush_interval_us;
+        auto files = sequence(std::move(options));
+        ASSERT_TRUE(files.begin({}));
+        files.write(sample(1), {});
+        files.tick({1'000'000, 0});
+        EXPECT_EQ(files.totals().messages, 1U);
+        files.write(sample(2), {1'000'000, 0});
+        disk->fail_at = disk->writes + disk->flushes + 1;  // not the chunk's write, its flush
+        files.tick({1'200'000, 0});
+        if (flush_interval_us > 0) files.tick({2'200'000, 0});
+        EXPECT_EQ(files.totals().fault, "disk: cannot flush: Input/output error");
+        EXPECT_EQ(files.totals().chunks_written, 2U);
+        EXPECT_EQ(files.totals().messages, 1U);
+        EXPECT_EQ(files.totals().topics[0].messages, 1U);
+        EXPECT_EQ(files.totals().lost_disk, 1U);
+        EXPECT_EQ(files.totals().topics_lost[0], 1U);
+    }
 }
 
 TEST_F(Files, that_cannot_be_begun_are_an_error_with_the_path) {
