@@ -168,7 +168,11 @@ void RecorderService::publish_status() {
 
 void RecorderService::stop() {
     activity_->stop();
-    if (status_writer_) publish_status();  // whoever looks later sees what came of it
+    if (status_writer_) {
+        // The last word: what came of it all. The writer is gone at once after this.
+        publish_status();
+        status_writer_->wait_acknowledged({0, 200'000'000});
+    }
     server_.reset();
     status_writer_.reset();
     participant_.reset();

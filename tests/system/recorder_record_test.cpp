@@ -3,6 +3,7 @@
 #include <sys/mount.h>
 
 #include <algorithm>
+#include <future>
 
 #include "tests/system/recorder_fixture.hpp"
 
@@ -150,6 +151,26 @@ TEST_F(Recorder, begins_a_new_file_when_asked_and_never_replaces_one) {
     for (const auto& payload : second.payloads(topic::events)) kept.push_back(payload);
     sent.insert(sent.end(), more.begin(), more.end());
     EXPECT_TRUE(kept == sent) << kept.size() << " of " << sent.size();
+}
+
+TEST_F(Recorder, that_ends_gives_who_reads_its_status_time_for_the_last_one) {
+    auto process = recorder({"output=" + path("run.mcap")});
+    // A reader that is busy with the first status that it hears once the recorder is to end.
+    std::promise<void> ended;
+    auto over = ended.get_future().share();
+    std::atomic<bool> ending{false};
+    auto reader = Reader<v1::RecorderStatus>::create(*participant_, topic::recorder_status,
+                                                     [&](auto&, auto&) {
+                                                         if (ending.load()) over.wait_for(5s);
+                                                     });
+    ASSERT_TRUE(eventually([&] { return (*reader)->matched() == 1; })) << process->log();
+    std::this_thread::sleep_for(300ms);
+    ending.store(true);
+    const auto took = process->stop();
+    ended.set_value();
+    EXPECT_GE(took, 200ms);
+    EXPECT_LT(took, 2s);
+    EXPECT_EQ(process->wait(), 0) << process->log();
 }
 
 TEST_F(Recorder, on_a_full_disk_says_so_goes_on_and_records_again_when_there_is_room) {
