@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sensor, tracker and recorder as processes: a tracker that hears the replay of a recording gives
 // the recorded poses again, bit for bit.
+#include <atomic>
 #include <fstream>
 
 #include "tests/system/recorder_fixture.hpp"
@@ -69,40 +70,47 @@ class SamePoses : public RecorderTest {
         return found;
     }
 
-    /// Replays run.mcap to a fresh tracker; the poses it gives.
-    std::map<std::uint32_t, std::vector<recorder::Payload>> replayed(const std::string& rate) {
+    /// Replays a recording to a fresh tracker; the recording of that.
+    std::string replayed(const std::string& rate, const std::string& file = "run.mcap") {
         const auto output = path("replay-at-" + rate + ".mcap");
         auto recording = recorder({"output=" + output});
         auto tracker = service("pursuit-tracker", {});
-        auto replay =
-            recorder({"replay=" + path("run.mcap"), "rate=" + rate, "wait_for_subscribers=2"});
+        auto replay = recorder({"replay=" + path(file), "rate=" + rate, "wait_for_subscribers=2"});
         EXPECT_EQ(replay->wait(), 0) << replay->log();
         std::this_thread::sleep_for(500ms);
         tracker->stop();
         recording->stop();
-        return poses(output);
+        return output;
+    }
+
+    void simulate_star() {
+        ChildProcess simulation(
+            "pursuitctl",
+            {"simulate", "star_670rpm", "--seed", "3", "--duration", "1", "--events",
+             path("star.dat"), "--truth", path("truth.csv"), "--models", path("models")},
+            path("log-simulate"));
+        ASSERT_EQ(simulation.wait(), 0) << simulation.log();
+    }
+
+    /// Calls on the tracker, once it and the recorder hear them.
+    void connect() {
+        auto client = RequestClient<v1::TrackerRequest, v1::TrackerReply>::create(
+            *participant_, topic::tracker_request, topic::tracker_reply, "");
+        ASSERT_TRUE(client);
+        client_ = std::move(*client);
+        ASSERT_TRUE(eventually([&] { return client_->heard_by() == 2; }));
+        std::this_thread::sleep_for(500ms);
     }
 
     std::unique_ptr<RequestClient<v1::TrackerRequest, v1::TrackerReply>> client_;
+    std::atomic<std::int64_t> last_us_{0};  ///< Of the poses that the test hears.
 };
 
 TEST_F(SamePoses, come_from_the_replay_of_a_recording) {
-    ChildProcess simulation(
-        "pursuitctl",
-        {"simulate", "star_670rpm", "--seed", "3", "--duration", "1", "--events", path("star.dat"),
-         "--truth", path("truth.csv"), "--models", path("models")},
-        path("log-simulate"));
-    ASSERT_EQ(simulation.wait(), 0) << simulation.log();
-
+    simulate_star();
     auto recording = recorder({"output=" + path("run.mcap")});
     auto tracker = service("pursuit-tracker", {});
-    auto client = RequestClient<v1::TrackerRequest, v1::TrackerReply>::create(
-        *participant_, topic::tracker_request, topic::tracker_reply, "");
-    ASSERT_TRUE(client);
-    client_ = std::move(*client);
-    // The tracker and the recorder.
-    ASSERT_TRUE(eventually([&] { return client_->heard_by() == 2; }));
-    std::this_thread::sleep_for(500ms);
+    connect();
     call(register_star("before", 174, 134));
     auto sensor =
         service("pursuit-sensor", {"recording=" + path("star.dat"), "wait_for_subscribers=3"});
@@ -142,7 +150,7 @@ TEST_F(SamePoses, come_from_the_replay_of_a_recording) {
     const auto live = poses(path("run.mcap"));
     ASSERT_EQ(live.size(), 2U);
     for (const auto* rate : {"1", "0"}) {
-        const auto again = replayed(rate);
+        const auto again = poses(replayed(rate));
         for (const auto& [object_id, expected] : live) {
             const auto found = again.find(object_id);
             ASSERT_NE(found, again.end()) << "object " << object_id << " at rate " << rate;
@@ -154,6 +162,43 @@ TEST_F(SamePoses, come_from_the_replay_of_a_recording) {
         }
         EXPECT_EQ(again.size(), live.size());
     }
+}
+
+TEST_F(SamePoses, come_near_in_the_replay_of_a_later_file_alone) {
+    simulate_star();
+    auto recording = recorder({"output=" + path("run.mcap")});
+    auto tracker = service("pursuit-tracker", {});
+    connect();
+    call(register_star("star", 174, 134));
+    auto sensor =
+        service("pursuit-sensor", {"recording=" + path("star.dat"), "wait_for_subscribers=2"});
+    auto poses = Reader<v1::ObjectPose>::create(
+        *participant_, topic::poses, [&](v1::ObjectPose& pose, auto&) { last_us_ = pose.t_us(); });
+    ASSERT_TRUE(eventually([&] { return last_us_ > 300'000; }));
+    auto client = RequestClient<v1::RecorderRequest, v1::RecorderReply>::create(
+        *participant_, topic::recorder_request, topic::recorder_reply, "");
+    v1::RecorderRequest request;
+    request.call().new_file({});
+    const auto reply = (*client)->call(request, 5s);
+    ASSERT_TRUE(reply) << reply.error().message;
+    EXPECT_EQ(sensor->wait(), 0) << sensor->log();
+    std::this_thread::sleep_for(500ms);
+    tracker->stop();
+    recording->stop();
+
+    const auto last = [](const std::string& file) {
+        const auto payloads = read_recording(file).payloads(topic::poses);
+        EXPECT_FALSE(payloads.empty()) << file;
+        return payloads.empty() ? v1::ObjectPose() : deserialized<v1::ObjectPose>(payloads.back());
+    };
+    const auto live = last(path("run-1.mcap"));
+    const auto again = last(replayed("1", "run-1.mcap"));
+    EXPECT_EQ(again.model().to_string(), "star");
+    EXPECT_EQ(again.object_id(), live.object_id());
+    EXPECT_EQ(again.t_us(), live.t_us());
+    EXPECT_EQ(again.state(), v1::TRACK_TRACKING);
+    EXPECT_NEAR(again.x_px(), live.x_px(), 1);
+    EXPECT_NEAR(again.y_px(), live.y_px(), 1);
 }
 
 }  // namespace

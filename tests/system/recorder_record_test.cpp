@@ -153,6 +153,37 @@ TEST_F(Recorder, begins_a_new_file_when_asked_and_never_replaces_one) {
     EXPECT_TRUE(kept == sent) << kept.size() << " of " << sent.size();
 }
 
+TEST_F(Recorder, begins_a_later_file_with_the_models_of_the_trackers_that_are_still_there) {
+    auto process = recorder({"output=" + path("run.mcap")});
+    const auto model_of = [](std::uint32_t sensor_id) {
+        v1::RegisteredModel model;
+        model.sensor_id(sensor_id);
+        model.object_id(1);
+        model.registered(true);
+        return serialized(model);
+    };
+    auto stays = raw_writer(topic::models);
+    auto ends = raw_writer(topic::models);
+    ASSERT_TRUE(eventually([&] { return stays->matched() == 1 && ends->matched() == 1; }))
+        << process->log();
+    for (auto payload = model_of(1); auto* writer : {stays.get(), ends.get()}) {
+        EXPECT_TRUE(writer->write(payload, -1, {}));
+        EXPECT_TRUE(writer->wait_acknowledged(5s));
+        payload = model_of(2);
+    }
+    new_file();
+    ends.reset();
+    std::this_thread::sleep_for(300ms);
+    new_file();
+    process->stop();
+    using Models = std::vector<recorder::Payload>;
+    const Models all{model_of(1), model_of(2)};
+    auto begun_with = read_recording(path("run-1.mcap")).payloads(topic::models);
+    std::sort(begun_with.begin(), begun_with.end());
+    EXPECT_EQ(begun_with, all);
+    EXPECT_EQ(read_recording(path("run-2.mcap")).payloads(topic::models), Models{model_of(1)});
+}
+
 TEST_F(Recorder, that_ends_gives_who_reads_its_status_time_for_the_last_one) {
     auto process = recorder({"output=" + path("run.mcap")});
     // A reader that is busy with the first status that it hears once the recorder is to end.

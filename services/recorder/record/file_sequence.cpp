@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/recorder/record/file_sequence.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -23,6 +24,7 @@ FileSequence::FileSequence(FileOptions options, const std::vector<TopicFacts>& t
       topics_(topics),
       discovered_(std::move(discovered)),
       on_error_(std::move(on_error)),
+      latched_(topics),
       in_chunk_(topics.size()),
       unflushed_(topics.size()) {
     totals_.topics.resize(topics.size());
@@ -33,19 +35,11 @@ Result<void> FileSequence::begin(const Now& now) { return open(now); }
 
 Result<void> FileSequence::open(const Now& now) {
     const auto path = free_path(expand_time(options_.output, now.host_ns));
-    auto made = options_.create(path).and_then([&](std::unique_ptr<mcap::Output> output) {
-        return RecordingFile::create(std::move(output), path, options_.writer, now.steady_us,
-                                     topics_, discovered_);
-    });
-    if (!made) {
-        std::error_code ignored;  // the error at hand is the one that matters
-        if (std::filesystem::is_regular_file(path, ignored) &&
-            std::filesystem::file_size(path, ignored) < 64) {
-            std::filesystem::remove(path, ignored);
-        }
-        return tl::unexpected(made.error());
-    }
+    auto made = begin_file(path, now);
+    if (!made) return tl::unexpected(made.error());
     file_.emplace(std::move(*made));
+    begun_bytes_ = file_->bytes();
+    begun_chunks_ = file_->totals().chunks;
     accounted_ = {};
     totals_.file = path;
     totals_.fault.clear();
@@ -54,8 +48,55 @@ Result<void> FileSequence::open(const Now& now) {
     return {};
 }
 
+Result<RecordingFile> FileSequence::begin_file(const std::string& path, const Now& now) {
+    std::error_code ignored;  // the error at hand is the one that matters
+    auto made = options_.create(path).and_then([&](std::unique_ptr<mcap::Output> output) {
+        return RecordingFile::create(std::move(output), path, options_.writer, now.steady_us,
+                                     topics_, discovered_);
+    });
+    if (!made) {
+        if (std::filesystem::is_regular_file(path, ignored) &&
+            std::filesystem::file_size(path, ignored) < 64) {
+            std::filesystem::remove(path, ignored);
+        }
+    } else if (const auto ok = write_latched(*made); !ok) {
+        std::filesystem::remove(path, ignored);
+        return tl::unexpected(ok.error());
+    }
+    return made;
+}
+
+Result<void> FileSequence::write_latched(RecordingFile& file) {
+    latched_.forget([this](const Sample& sample) {
+        return discovered_(topics_[sample.topic], sample.id.writer).gone;
+    });
+    if (latched_.samples().empty()) return {};
+    for (const auto& [key, latched] : latched_.samples()) {
+        Sample sample = latched;
+        // They are recorded now: a file is no longer than what happened while it was written.
+        sample.reception_time_ns = last_reception_ns_;
+        // One that is refused was told of when it came; the file's own failure is told by flush().
+        static_cast<void>(file.write(sample));
+    }
+    return file.flush();
+}
+
+void FileSequence::keep_latched(const Sample& sample) {
+    last_reception_ns_ = std::max(last_reception_ns_, sample.reception_time_ns);
+    if (latched_.take(sample) || told_latched_full_) return;
+    told_latched_full_ = true;
+    on_error_(topics_[sample.topic].name +
+              ": too much is latched to keep it; later files do not begin with all of it");
+}
+
+bool FileSequence::large() const {
+    if (options_.max_file_bytes == 0) return false;
+    return file_->bytes() >= std::max(options_.max_file_bytes, 2 * begun_bytes_);
+}
+
 void FileSequence::write(const Sample& sample, const Now& now) {
     count_gap(sample);
+    keep_latched(sample);
     auto& in_chunk = in_chunk_[sample.topic];
     if (!file_) {
         lose(sample.topic, 1, totals_.lost_disk);
@@ -75,8 +116,7 @@ void FileSequence::write(const Sample& sample, const Now& now) {
         on_error_(file_->path() + ": " + ok.error().message);
     }
     account(now);
-    const bool large = options_.max_file_bytes > 0 && file_->bytes() >= options_.max_file_bytes;
-    if (large || file_->full()) {
+    if (large() || file_->full()) {
         if (const auto ok = new_file(now); !ok) give_up(ok.error().message, now);
     }
 }
@@ -121,7 +161,7 @@ void FileSequence::give_up(const std::string& error, const Now& now) {
             unflushed_[i] = {};
             in_chunk_[i] = {};
         }
-        const bool empty = file_->totals().chunks == 0;
+        const bool empty = file_->totals().chunks == begun_chunks_;
         const auto path = file_->path();
         file_.reset();
         std::error_code ignored;  // it stays then, and is in nobody's way

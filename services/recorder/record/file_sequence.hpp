@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "services/recorder/record/latched_samples.hpp"
 #include "services/recorder/record/recording_file.hpp"
 #include "services/recorder/stream_gaps.hpp"
 
@@ -22,7 +23,9 @@ struct Now {
 struct FileOptions {
     std::string output;  ///< Path; %t becomes the UTC time at which a file is begun.
     mcap::WriterOptions writer;
-    std::uint64_t max_file_bytes = 0;  ///< 0: no bound.
+    /// A next file is begun at this size, but not before a file holds as much of its own as what it
+    /// begins with. 0: no bound.
+    std::uint64_t max_file_bytes = 0;
 
     using Create = std::function<Result<std::unique_ptr<mcap::Output>>(const std::string& path)>;
     Create create = mcap::FileOutput::create;
@@ -56,8 +59,12 @@ struct FileTotals {
 ///                 ▼                                        │
 ///               fault ── samples are dropped and counted ──┘
 ///
-/// A file that was given up stays, readable up to its last chunk; one that holds nothing is
-/// removed. A message counts as recorded when its chunk is flushed to the disk, and as lost when
+/// Every file but the first begins with what the latched topics held then (LatchedSamples): the
+/// models and settings without which its events give no poses. They have the publish time of their
+/// own, and as log time that of the last sample before; they are in no total of messages.
+///
+/// A file that was given up stays, readable up to its last chunk; one that holds nothing of its own
+/// is removed. A message counts as recorded when its chunk is flushed to the disk, and as lost when
 /// the chunk cannot be written or flushed: what the kernel could not flush it may have dropped. One
 /// thread.
 class FileSequence {
@@ -84,6 +91,10 @@ class FileSequence {
 
  private:
     Result<void> open(const Now& now);
+    Result<RecordingFile> begin_file(const std::string& path, const Now& now);
+    Result<void> write_latched(RecordingFile& file);
+    void keep_latched(const Sample& sample);
+    bool large() const;
     void give_up(const std::string& error, const Now& now);
     void account(const Now& now);
     void lose(std::size_t topic, std::uint64_t messages, std::uint64_t& cause);
@@ -93,7 +104,12 @@ class FileSequence {
     const std::vector<TopicFacts>& topics_;
     RecordingFile::Discovered discovered_;
     OnError on_error_;
+    LatchedSamples latched_;
+    bool told_latched_full_ = false;
+    std::int64_t last_reception_ns_ = 0;
     std::optional<RecordingFile> file_;
+    std::uint64_t begun_bytes_ = 0;  ///< Of file_, what it began with.
+    std::uint64_t begun_chunks_ = 0;
     mcap::WriterTotals accounted_;        ///< Of file_, what is in totals_ already.
     std::vector<TopicTotals> in_chunk_;   ///< The open chunk, by topic.
     std::vector<TopicTotals> unflushed_;  ///< Closed chunks, likewise.

@@ -25,6 +25,7 @@ struct OfferedQos {
     mcap::Ownership ownership = mcap::Ownership::shared;
     std::int64_t deadline_ns = 0;  ///< 0: none.
     std::vector<std::string> partitions;
+    bool gone = false;  ///< The writer is there no more.
 };
 
 }  // namespace pursuit::recorder

@@ -37,6 +37,7 @@ class RecordingFile {
 
     Result<void> write(const Sample& sample);
     Result<void> tick(std::int64_t now_us) { return writer_.tick(now_us); }
+    Result<void> flush() { return writer_.flush(); }
     Result<void> close() { return writer_.close(); }
 
     const std::string& path() const { return path_; }

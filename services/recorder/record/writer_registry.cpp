@@ -24,6 +24,7 @@ std::optional<OfferedQos> WriterRegistry::find(const Guid& guid) const {
 void WriterRegistry::on_publisher_discovery(dds::DomainParticipant*,
                                             eprosima::fastrtps::rtps::WriterDiscoveryInfo&& info) {
     using Info = eprosima::fastrtps::rtps::WriterDiscoveryInfo;
+    if (info.status == Info::REMOVED_WRITER) return note_gone(to_guid(info.info.guid()));
     if (info.status != Info::DISCOVERED_WRITER && info.status != Info::CHANGED_QOS_WRITER) return;
     const auto& qos = info.info.m_qos;
     OfferedQos offered;
@@ -47,6 +48,27 @@ void WriterRegistry::on_publisher_discovery(dds::DomainParticipant*,
         writers_.erase(order_.front());
         order_.pop_front();
     }
+}
+
+void WriterRegistry::on_participant_discovery(
+    dds::DomainParticipant*, eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) {
+    using Info = eprosima::fastrtps::rtps::ParticipantDiscoveryInfo;
+    if (info.status != Info::REMOVED_PARTICIPANT && info.status != Info::DROPPED_PARTICIPANT) {
+        return;
+    }
+    auto first = to_guid(info.info.m_guid);
+    std::fill(first.begin() + 12, first.end(), std::uint8_t{0});
+    const std::scoped_lock lock(mutex_);
+    for (auto of_it = writers_.lower_bound(first); of_it != writers_.end(); ++of_it) {
+        if (!std::equal(first.begin(), first.begin() + 12, of_it->first.begin())) break;
+        of_it->second.gone = true;
+    }
+}
+
+void WriterRegistry::note_gone(const Guid& guid) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = writers_.find(guid);
+    if (found != writers_.end()) found->second.gone = true;
 }
 
 }  // namespace pursuit::recorder

@@ -27,6 +27,11 @@ class WriterRegistry : public eprosima::fastdds::dds::DomainParticipantListener 
     void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant*,
                                 eprosima::fastrtps::rtps::WriterDiscoveryInfo&& info) override;
 
+    void on_participant_discovery(
+        eprosima::fastdds::dds::DomainParticipant*,
+        eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
+    void note_gone(const Guid& guid);
+
     static constexpr std::size_t most_writers = 8192;
     mutable std::mutex mutex_;
     std::map<Guid, OfferedQos> writers_;

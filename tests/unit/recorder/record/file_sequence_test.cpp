@@ -7,12 +7,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "services/recorder/mcap/facts.hpp"
 #include "services/recorder/mcap/reader.hpp"
 #include "services/recorder/record/output_path.hpp"
 #include "services/recorder/record/related_sample.hpp"
-#include "services/recorder/record/sample_queue.hpp"
 #include "tests/unit/recorder/mcap_sample.hpp"
 
 namespace pursuit::recorder {
@@ -28,7 +28,12 @@ class Files : public ::testing::Test {
 
     FileSequence sequence(FileOptions options) {
         return FileSequence(
-            std::move(options), topics_, [](auto&, auto&) { return OfferedQos{}; },
+            std::move(options), topics_,
+            [this](auto&, const Guid& writer) {
+                OfferedQos offered;
+                offered.gone = gone_.contains(writer);
+                return offered;
+            },
             [this](const std::string& error) { errors_.push_back(error); });
     }
     static Sample sample(std::uint8_t content, std::size_t topic = 0, std::uint8_t writer = 1) {
@@ -40,7 +45,14 @@ class Files : public ::testing::Test {
         sample.payload = {0, 1, 0, 0, content};
         return sample;
     }
+    static Sample model(std::uint8_t instance, std::uint8_t content, std::uint8_t writer = 1) {
+        auto model = sample(content, 2, writer);
+        model.instance.fill(instance);
+        model.source_time_ns = 100 + content;
+        return model;
+    }
     struct Message {
+        mcap::MessageHead head;
         mcap::Channel channel;
         mcap::Bytes data;
     };
@@ -52,8 +64,9 @@ class Files : public ::testing::Test {
         while (reader) {
             const auto message = reader->next();
             if (!message || !*message) break;
-            found.push_back(
-                {*(*message)->channel, {(*message)->data.begin(), (*message)->data.end()}});
+            found.push_back({(*message)->head,
+                             *(*message)->channel,
+                             {(*message)->data.begin(), (*message)->data.end()}});
         }
         return found;
     }
@@ -62,7 +75,9 @@ class Files : public ::testing::Test {
     std::string folder_;
     std::vector<TopicFacts> topics_ = {
         {"pursuit/poses", "pursuit::v1::ObjectPose", true, "poses", 16},
-        {"pursuit/tracker/reply", "pursuit::v1::TrackerReply", false, "calls", 128}};
+        {"pursuit/tracker/reply", "pursuit::v1::TrackerReply", false, "calls", 128},
+        {"pursuit/models", "pursuit::v1::RegisteredModel", true, "latched", 1}};
+    std::set<Guid> gone_;
     std::vector<std::string> errors_;
 };
 
@@ -139,6 +154,70 @@ TEST_F(Files, begin_a_next_one_at_the_size_that_is_set_and_lose_nothing) {
     EXPECT_TRUE(std::filesystem::exists(path("a-3.mcap")));
 }
 
+TEST_F(Files, but_the_first_begin_with_what_was_latched_then) {
+    auto files = sequence({path("a.mcap"), {}, 0});
+    ASSERT_TRUE(files.begin({}));
+    for (const auto& sample : {model(7, 1), model(8, 2), model(7, 3), model(9, 4, 0x0c)}) {
+        files.write(sample, {});
+    }
+    files.write(sample(5), {});
+    gone_.insert(model(9, 4, 0x0c).id.writer);
+    ASSERT_TRUE(files.new_file({}));
+    // They are there before anything else comes.
+    const auto begun = messages(path("a-1.mcap"));
+    ASSERT_EQ(begun.size(), 2U);
+    EXPECT_EQ(begun[0].data, model(7, 3).payload);
+    EXPECT_EQ(begun[1].data, model(8, 2).payload);
+    for (const auto& message : begun) {
+        EXPECT_EQ(message.head.log_time_ns, sample(5).reception_time_ns);
+        EXPECT_EQ(message.head.publish_time_ns, 100 + message.data[4]);
+        EXPECT_EQ(message.head.sequence, message.data[4]);
+    }
+    files.write(sample(6), {});
+    files.close({});
+    EXPECT_EQ(messages(path("a-1.mcap")).size(), 3U);
+    EXPECT_EQ(files.totals().messages, 6U);
+    EXPECT_EQ(files.totals().topics[2].messages, 4U);
+}
+
+TEST_F(Files, hold_as_much_of_their_own_as_what_they_begin_with_whatever_size_is_set) {
+    mcap::WriterOptions options;
+    options.compression = mcap::Compression::none;
+    auto files = sequence({path("a.mcap"), options, 10'000});
+    ASSERT_TRUE(files.begin({}));
+    auto large = model(7, 1);
+    large.payload.resize(50'000, 1);
+    files.write(large, {});
+    for (std::uint8_t i = 0; i < 120; ++i) {
+        auto pose = sample(i);
+        pose.payload.resize(1000);
+        files.write(pose, {});
+    }
+    files.close({});
+    EXPECT_EQ(files.totals().file, path("a-3.mcap"));
+    EXPECT_EQ(files.totals().messages, 121U);
+}
+
+TEST_F(Files, that_have_no_room_for_what_they_begin_with_are_not_begun) {
+    const auto disk = std::make_shared<mcap::MemoryOutput::Disk>();
+    auto files = sequence({path("a.mcap"), {}, 0, [&](const std::string& path) {
+                               std::ofstream(path) << std::string(100, ' ');
+                               return std::make_unique<mcap::MemoryOutput>(disk);
+                           }});
+    ASSERT_TRUE(files.begin({}));
+    files.write(model(7, 1), {});
+    files.tick({200'000, 0});
+    disk->fail_at = 3;  // the fourth call: the magic, two definitions, then the chunk
+    EXPECT_FALSE(files.new_file({}));
+    EXPECT_THAT(files.totals().fault, ::testing::HasSubstr("No space left on device"));
+    EXPECT_TRUE(std::filesystem::exists(path("a.mcap")));
+    EXPECT_FALSE(std::filesystem::exists(path("a-1.mcap")));
+    disk->fail_at = -1;
+    files.tick({1'200'000, 0});
+    EXPECT_EQ(files.totals().fault, "");
+    EXPECT_EQ(files.totals().file, path("a-1.mcap"));
+}
+
 TEST_F(Files, that_cannot_be_written_are_tried_again_every_second_and_what_is_lost_is_counted) {
     const auto place = path("place");
     std::filesystem::create_directory(place);
@@ -207,30 +286,6 @@ TEST(OutputPath, has_the_time_of_the_start_in_utc) {
     EXPECT_EQ(expand_time("/x/%t-%t.mcap", 1'767'323'045'999'999'999),
               "/x/20260102T030405Z-20260102T030405Z.mcap");
     EXPECT_EQ(expand_time("plain", 0), "plain");
-}
-
-TEST(SampleQueue, full_drops_the_newest_and_keeps_the_order) {
-    const auto make = [](std::uint8_t content) {
-        Sample sample;
-        sample.payload.assign(100, content);
-        return sample;
-    };
-    const auto size = SampleQueue::bytes_of(make(0));
-    SampleQueue queue(3 * size);
-    for (std::uint8_t i = 0; i < 3; ++i) EXPECT_TRUE(queue.push(make(i)));
-    EXPECT_FALSE(queue.push(make(3)));
-    EXPECT_EQ(queue.bytes(), 3 * size);
-    const auto two = queue.take(std::chrono::milliseconds(0), 2);
-    ASSERT_EQ(two.size(), 2U);
-    EXPECT_EQ(two[0].payload[0], 0);
-    EXPECT_EQ(two[1].payload[0], 1);
-    EXPECT_EQ(queue.bytes(), size);
-    EXPECT_TRUE(queue.push(make(4)));
-    const auto rest = queue.take(std::chrono::milliseconds(0), 10);
-    ASSERT_EQ(rest.size(), 2U);
-    EXPECT_EQ(rest[1].payload[0], 4);
-    EXPECT_EQ(queue.bytes(), 0U);
-    EXPECT_TRUE(queue.take(std::chrono::milliseconds(0), 10).empty());
 }
 
 }  // namespace
