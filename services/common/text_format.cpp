@@ -5,17 +5,13 @@
 #include <google/protobuf/text_format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include "services/common/atomic_file.hpp"
 #include "services/common/ranges.hpp"
+#include "services/common/small_file.hpp"
 
 namespace pursuit {
 namespace {
@@ -23,7 +19,7 @@ namespace {
 using google::protobuf::Message;
 using google::protobuf::TextFormat;
 
-constexpr std::uintmax_t max_file_bytes = 64ULL << 20;
+constexpr std::size_t max_file_mib = 64;
 
 /// Line `index` of `text`, from 0, without white space around it and at most 80 bytes.
 std::string line_of(std::string_view text, int index) {
@@ -104,16 +100,9 @@ Result<void> parse_text(std::string_view text, const std::string& name, Message&
 }
 
 Result<void> read_text_file(const std::string& path, Message& message, FieldPlaces* places) {
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) return fail(path + ": is a folder");
-    std::ifstream in(path, std::ios::binary);
-    if (!in) return fail(path + ": cannot open: " + std::strerror(errno));
-    std::ostringstream text;
-    const auto size = std::filesystem::file_size(path, error);
-    if (!error && size > max_file_bytes) return fail(path + ": larger than 64 MiB");
-    text << in.rdbuf();
-    if (in.bad()) return fail(path + ": cannot read: " + std::strerror(errno));
-    return parse_text(text.str(), path, message, places);
+    const auto text = read_small_file(path, max_file_mib);
+    if (!text) return tl::unexpected(text.error());
+    return parse_text(*text, path, message, places);
 }
 
 Result<void> write_text_file(const std::string& path, const Message& message) {

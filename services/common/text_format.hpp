@@ -23,7 +23,7 @@ Result<void> parse_text(std::string_view text, const std::string& name,
 Result<void> merge_text(std::string_view text, const std::string& name,
                         google::protobuf::Message& message);
 
-/// Reads a file of Protobuf text, as parse_text(). At most 64 MiB.
+/// Reads a regular file of Protobuf text, as parse_text(). At most 64 MiB.
 Result<void> read_text_file(const std::string& path, google::protobuf::Message& message,
                             FieldPlaces* places = nullptr);
 

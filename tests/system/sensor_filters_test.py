@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Filters of a running sensor: configured, changed by request, refused, counted; and two sensors."""
 
+import os
 import subprocess
 import unittest
 
@@ -69,6 +70,22 @@ class Filters(SystemTest):
         self.ctl("sensor", "filters", "--none")
         self.eventually(lambda: self.status_of("sensor")["width"] == status["width"],
                         what="the image is as it was")
+
+    def test_by_request_read_no_device_or_fifo_and_tell_nothing_of_what_stands_in_a_file(self):
+        sensor = self.service("sensor", scene="overtake", rate=0.2)
+        self.eventually(lambda: self.status_of("sensor")["width"], what="the image has a size")
+        os.mkfifo(self.path("fifo"))
+        with open(self.path("passwd"), "w") as file:
+            file.write("secret:x:0:0::/root:/bin/sh\n")
+        for name, why in (("/dev/zero", "is not a regular file"),
+                          (self.path("fifo"), "is not a regular file"),
+                          (self.path("passwd"), "passwd:1:")):
+            for kind in ("pixel_mask", "undistort"):
+                self.ctl("sensor", "filters", f"{kind} file={name}", code=1)
+                self.assertIn(why, self.ctl_err)
+                self.assertNotIn("secret", self.ctl_err)
+        self.assertEqual(self.status_of("sensor")["state"], "RUNNING")
+        self.assertEqual(sensor.stop(), 0)
 
     def test_that_are_wrong_in_the_configuration_end_the_start_with_78_and_the_field(self):
         for text, words in (("no_such a=1", "no filter is named"),

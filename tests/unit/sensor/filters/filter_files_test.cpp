@@ -17,6 +17,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using Events = std::vector<Event>;
 
 Result<std::unique_ptr<FilterChain>> chain_of(const std::vector<std::string>& texts,
@@ -68,6 +69,24 @@ TEST(PixelMask, of_another_image_or_beyond_it_or_unreadable_is_refused_with_the_
                 HasSubstr("rectangle[0] reaches beyond"));
     EXPECT_THAT(message_of("width: 24\nhight: 18"), HasSubstr(":2:"));
     EXPECT_THAT(chain_of({"pixel_mask file=/nowhere"}).error().message, HasSubstr("/nowhere"));
+}
+
+TEST(FilterFile, that_is_none_is_refused_by_file_line_and_column_and_nothing_of_it_is_told) {
+    const test::TemporaryFolder folder;
+    for (const std::string content : {"secret:x:0:0::/:/bin/sh", "width: 24\n  secret: 1",
+                                      "width: secret", "width: \"secret"}) {
+        const auto file = folder.file("passwd", content);
+        for (const auto* filter : {"pixel_mask file=", "undistort file="}) {
+            const auto chain = chain_of({filter + file});
+            ASSERT_FALSE(chain) << content;
+            EXPECT_THAT(chain.error().message, HasSubstr(file + ":"));
+            EXPECT_THAT(chain.error().message, Not(HasSubstr("secret")));
+        }
+    }
+    EXPECT_THAT(chain_of({"pixel_mask file=" + folder.file("passwd", "width: 24\n  secret: 1")})
+                    .error()
+                    .message,
+                HasSubstr("passwd:2:9: is no PixelMask"));
 }
 
 /// The camera of the RPG recordings, as its calibration states it.
