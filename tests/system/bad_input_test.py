@@ -145,6 +145,14 @@ class BadInput(SystemTest):
         self.assertEqual(status["gaps"], 0)
         self.assertTrue(tracker.alive())
 
+    def test_a_time_beyond_285_years_is_an_error_with_its_line_and_the_sensor_ends(self):
+        path = self.path("late.csv")
+        with open(path, "w") as file:
+            file.write("# geometry 4x4\n10,1,1,1\n9223372036854775807,1,1,1\n")
+        sensor = self.service("sensor", recording=path, rate=0, exit_at_end=True)
+        self.assertEqual(sensor.wait(10), 1)
+        self.assertIn(f"{path}: byte 24: line 3: time 9223372036854775807 us", sensor.err())
+
     def tracker_status(self):
         return json.loads(self.ctl("status", "--json"))["tracker"]
 

@@ -59,6 +59,7 @@ class Aedat4Reader final : public EventReader {
         if (x >= geometry_.width || y >= geometry_.height) return outside(x, y, geometry_);
         if (at[12] > 1) return "polarity " + std::to_string(at[12]) + " is not 0 or 1";
         if (t_us < last_t_us_) return time_goes_back(last_t_us_, t_us);
+        if (t_us >= max_t_us) return time_too_late(t_us);
         last_t_us_ = t_us;
         store(event, t_us, x, y, at[12]);
         return std::nullopt;

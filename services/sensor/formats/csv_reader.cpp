@@ -157,6 +157,7 @@ class CsvReader final : public EventReader {
         if (polarity > 1) return "polarity " + std::to_string(polarity) + " is not 0 or 1";
         if (x >= geometry_.width || y >= geometry_.height) return outside(x, y, geometry_);
         if (event.t_us < last_t_us_) return time_goes_back(last_t_us_, event.t_us);
+        if (event.t_us >= max_t_us) return time_too_late(event.t_us);
         last_t_us_ = event.t_us;
         store(event, last_t_us_, x, y, polarity);
         return std::nullopt;

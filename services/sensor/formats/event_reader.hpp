@@ -17,9 +17,9 @@ namespace pursuit::sensor {
 /// A source of events, read from front to back: a decoder of a recording or of a live stream of
 /// bytes, or a scene.
 ///
-/// Contract: t_us never decreases; x < width, y < height; polarity 0 or 1. What breaks it is an
-/// error. Every good event before an error is delivered first, by calls that succeed; then the
-/// error is returned by each further call. One thread.
+/// Contract: t_us never decreases and is below 2^53; x < width, y < height; polarity 0 or 1. What
+/// breaks it is an error. Every good event before an error is delivered first, by calls that
+/// succeed; then the error is returned by each further call. One thread.
 ///
 /// ATIS exposure measurements are Events whose polarity is the number of the threshold that was
 /// crossed: 0 begins a measurement, 1 ends it; the grey level is proportional to 1/(t1 - t0).

@@ -58,6 +58,10 @@ inline std::string outside(std::uint32_t x, std::uint32_t y, Geometry geometry) 
            std::to_string(geometry.width) + "x" + std::to_string(geometry.height);
 }
 
+inline std::string time_too_late(std::int64_t t_us) {
+    return "time " + std::to_string(t_us) + " us is not below 2^53 us";
+}
+
 inline std::string time_goes_back(std::int64_t from_us, std::int64_t to_us) {
     return "time goes back from " + std::to_string(from_us) + " to " + std::to_string(to_us) +
            " us";

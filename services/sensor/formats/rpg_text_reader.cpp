@@ -102,6 +102,7 @@ class RpgTextReader final : public EventReader {
         if (event.t_us < last_t_us_) {
             return time_goes_back(last_t_us_, event.t_us);
         }
+        if (event.t_us >= max_t_us) return time_too_late(event.t_us);
         last_t_us_ = event.t_us;
         return std::nullopt;
     }

@@ -21,7 +21,7 @@ extern "C" {
 
 /* One brightness change, or one crossing of an ATIS exposure measurement. */
 typedef struct pursuit_event {
-    int64_t t_us;     /* sensor time, us, at least 0; never decreases within a stream */
+    int64_t t_us;     /* sensor time, us, 0 .. 2^53-1; never decreases within a stream */
     uint16_t x;       /* px to the right, 0 .. width-1 */
     uint16_t y;       /* px downwards, 0 .. height-1 */
     uint8_t polarity; /* 1 brighter, 0 darker; of a measurement: 0 its begin, 1 its end */
@@ -41,7 +41,7 @@ typedef struct pursuit_sink {
     /*
      * Events in order of time, as soon as they are there, many or few. `reached_us`: nothing that
      * follows is earlier; where nothing happened for a while, tell the time with no events at all.
-     * Events that break what is said above are left out and counted.
+     * Events that break what is said above are left out and counted; such a time is passed over.
      */
     void (*events)(void* context, const pursuit_event* events, size_t count, int64_t reached_us);
 

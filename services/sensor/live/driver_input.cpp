@@ -57,14 +57,14 @@ class Run {
         }
         good_.clear();
         for (const auto& e : given) {
-            const bool good = e.t_us >= reached_us_ && e.x < geometry_.width &&
+            const bool good = e.t_us >= reached_us_ && e.t_us < max_t_us && e.x < geometry_.width &&
                               e.y < geometry_.height && e.polarity <= 1;
             if (!good) continue;
             good_.push_back({e.t_us, e.x, e.y, e.polarity});
             reached_us_ = e.t_us;
         }
         sink_.unusable(given.size() - good_.size());
-        reached_us_ = std::max(reached_us_, reached_us);
+        if (reached_us < max_t_us) reached_us_ = std::max(reached_us_, reached_us);
         heard_ = true;
         const std::span<const Event> none;
         sink_.push(exposures ? none : good_, exposures ? good_ : none, reached_us_);

@@ -9,9 +9,6 @@
 
 namespace pursuit::tracker {
 
-/// Event times are below it: beyond, microseconds are no longer whole in a double; 285 years.
-inline constexpr std::int64_t max_t_us = std::int64_t{1} << 53;
-
 /// Images have so many pixels at most, as of 3840×2160: the tracker keeps 16 bytes for each.
 inline constexpr std::size_t max_pixels = std::size_t{1} << 23;
 constexpr bool is_usable(Geometry geometry) {

@@ -42,6 +42,7 @@ TEST(RpgTextReader, names_the_line_of_what_is_wrong_and_keeps_what_was_before) {
         {"x 1 2 1", "\"x\" is not a time in seconds"},
         {". 1 2 1", "\".\" is not a time in seconds"},
         {"99999999999999999999 1 2 1", "is not a time in seconds"},
+        {"9007199254.740992 1 2 1", "time 9007199254740992 us is not below 2^53 us"},
         {"0.2 1 2", "must be \"t_s x y p\""},
         {"0.2 1 2 1 1", "must be \"t_s x y p\""},
         {"0.2 -1 2 1", "must be \"t_s x y p\""},

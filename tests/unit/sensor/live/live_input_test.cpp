@@ -213,7 +213,7 @@ TEST(DriverInput, leaves_out_and_counts_what_breaks_the_contract_and_begins_agai
         const auto stream = heard.stream();
         EXPECT_THAT(stream.events, ElementsAre(Event{50, 1, 1, 1}, Event{60, 2, 2, 0}));
         EXPECT_THAT(stream.fault, HasSubstr("moving dot gave up with 7"));
-        EXPECT_GE(heard.sink.unusable(), 4 * count);
+        EXPECT_GE(heard.sink.unusable(), 5 * count);
         EXPECT_GE(heard.sink.lost_before(), 11 * count);
     }
 }

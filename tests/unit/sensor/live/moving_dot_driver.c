@@ -7,10 +7,11 @@
 #include "services/sensor/live/driver.h"
 
 static int run_badly(const pursuit_sink* sink) {
-    const pursuit_event events[] = {{50, 1, 1, 1, {0}},   {40, 1, 1, 1, {0}}, {55, 320, 1, 1, {0}},
-                                    {55, 1, 240, 1, {0}}, {55, 1, 1, 2, {0}}, {60, 2, 2, 0, {0}}};
+    const pursuit_event events[] = {
+        {50, 1, 1, 1, {0}}, {40, 1, 1, 1, {0}},        {55, 320, 1, 1, {0}}, {55, 1, 240, 1, {0}},
+        {55, 1, 1, 2, {0}}, {INT64_MAX, 1, 1, 1, {0}}, {60, 2, 2, 0, {0}}};
     sink->begin(sink->context, 320, 240);
-    sink->events(sink->context, events, sizeof events / sizeof *events, 60);
+    sink->events(sink->context, events, sizeof events / sizeof *events, INT64_MAX);
     sink->lost(sink->context, 11);
     return 7;
 }
