@@ -17,7 +17,7 @@ namespace pursuit::sensor {
 ///
 /// - x is stored mirrored: x = width - 1 - x_file. y is taken as stored.
 /// - Time is unsigned and wraps at 2^32 us: it is unwrapped where it falls by more than half of
-/// that.
+///   that. A rise by more than that after a wrap is what is late across it, and goes back.
 Result<std::unique_ptr<EventReader>> open_aedat2(ByteWindow bytes, const ReadOptions& options);
 
 bool looks_like_aedat2(std::string_view head);

@@ -89,7 +89,16 @@ class DatReader final : public EventReader {
                Version::y(word.address) < geometry_.height && Version::polarity(word.address) <= 1;
     }
 
-    bool wraps(Word word) const { return last_t_us_ - word.t_us > 0x8000'0000U; }
+    static constexpr std::int64_t range_us = std::int64_t{1} << 32;
+    static constexpr std::uint32_t half_range_us = 0x8000'0000;
+
+    bool wraps(Word word) const {
+        return word.t_us < last_t_us_ && last_t_us_ - word.t_us > half_range_us;
+    }
+    /// Whether it is late, from before the last wrap.
+    bool unwraps(Word word) const {
+        return epoch_us_ > 0 && word.t_us > last_t_us_ && word.t_us - last_t_us_ > half_range_us;
+    }
 
     /// Decodes events until the first bad one and returns how many are good. The common case has
     /// no branch: only a block that breaks a rule, or wraps, is looked at event by event.
@@ -113,8 +122,12 @@ class DatReader final : public EventReader {
             last = t_us[3];
             store_four(&events[i], t_us, epoch, x, y, polarity);
         }
-        if (any(bad)) return decode_one_by_one(bytes, events);
-        last_t_us_ = static_cast<std::uint32_t>(last);
+        const auto last_t_us = static_cast<std::uint32_t>(last);
+        // In a block without a fall, one such rise is one of the whole.
+        if (any(bad) || last_t_us - last_t_us_ > half_range_us) {
+            return decode_one_by_one(bytes, events);
+        }
+        last_t_us_ = last_t_us;
         return fours + decode_one_by_one(bytes + fours * dat_event_bytes, events.subspan(fours));
     }
 
@@ -122,9 +135,10 @@ class DatReader final : public EventReader {
         for (std::size_t i = 0; i < events.size(); ++i) {
             const Word word = word_at(bytes + i * dat_event_bytes);
             if (!fits(word)) return i;
-            if (word.t_us < last_t_us_) {
-                if (!wraps(word)) return i;
-                epoch_us_ += std::int64_t{1} << 32;
+            if (wraps(word)) {
+                epoch_us_ += range_us;
+            } else if (word.t_us < last_t_us_ || unwraps(word)) {
+                return i;
             }
             last_t_us_ = word.t_us;
             store(events[i], epoch_us_ + word.t_us, Version::x(word.address),
@@ -136,7 +150,8 @@ class DatReader final : public EventReader {
     Error describe(Word word) const {
         std::string cause;
         if (fits(word)) {
-            cause = time_goes_back(last_t_us_, word.t_us);
+            const auto t_us = epoch_us_ + word.t_us - (unwraps(word) ? range_us : 0);
+            cause = time_goes_back(epoch_us_ + last_t_us_, t_us);
         } else if (Version::polarity(word.address) > 1) {
             cause =
                 "polarity " + std::to_string(Version::polarity(word.address)) + " is not 0 or 1";

@@ -15,6 +15,7 @@ namespace pursuit::sensor {
 /// - Time comes in two parts, TIME_HIGH and the rest. An event before the first TIME_HIGH has none:
 ///   an error, unless the stream is joined late.
 /// - TIME_HIGH wraps: time is unwrapped where it falls by more than half of its range.
+///   A rise by more than that after a wrap is what is late across it, and goes back.
 /// - External triggers and the words of other kinds (OTHERS, CONTINUED) are passed over; a word of
 /// a
 ///   kind that the format does not define is an error.

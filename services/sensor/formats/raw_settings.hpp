@@ -21,13 +21,18 @@ inline std::string outside(std::uint32_t x, std::uint32_t y, const RawSettings& 
            (settings.geometry_is_stated ? "" : ", assumed because the header states no size");
 }
 
-/// A counter of `bits` bits, unwrapped where it falls by more than half of its range.
+/// A counter of `bits` bits, unwrapped where it falls by more than half of its range. A rise by
+/// more than that after a wrap is what is late across it, and goes back before the wrap.
 template <unsigned bits>
 class Unwrapped {
  public:
     void set(std::int64_t stored) {
         constexpr std::int64_t range = std::int64_t{1} << bits;
-        if (stored_ - stored > range / 2) turns_ += range;
+        if (stored_ - stored > range / 2) {
+            turns_ += range;
+        } else if (stored - stored_ > range / 2 && turns_ > 0) {
+            turns_ -= range;
+        }
         stored_ = stored;
     }
 

@@ -39,6 +39,13 @@ TEST(NmnistReader, reads_forty_bits_an_event_and_the_markers_of_time) {
         (Events{{0x7ffff0, 33, 0, 1}, {(1 << 23) + 3, 0, 33, 0}, {(1 << 23) + 5 + 8192, 1, 2, 1}}));
 }
 
+TEST(NmnistReader, an_event_that_is_late_across_the_wrap_goes_back_and_time_does_not_jump) {
+    const auto all = decode_bin(nmnist(1, 1, 1, 0x7ffff0) + nmnist(1, 1, 1, 3) +
+                                nmnist(1, 1, 1, 0x7ffff8) + nmnist(1, 1, 1, 5));
+    EXPECT_EQ(all.events.size(), 2U);
+    EXPECT_EQ(all.error, "a.bin: byte 10: time goes back from 8388611 to 8388600 us");
+}
+
 TEST(NmnistReader, takes_the_small_array_only_where_the_events_fit) {
     ReadOptions asked;
     asked.geometry = Geometry{50, 50};
@@ -87,6 +94,13 @@ TEST(Aedat2Reader, reads_a_dvs128_and_unwraps_its_unsigned_time) {
     EXPECT_EQ(all.error, "");
     EXPECT_EQ(all.events,
               (Events{{0xffff'fff0, 127, 3, 1}, {(std::int64_t{1} << 32) + 6, 0, 127, 0}}));
+}
+
+TEST(Aedat2Reader, an_event_that_is_late_across_the_wrap_goes_back_and_time_does_not_jump) {
+    const auto all = decode_bytes("a.aedat", aedat2_header + aedat2(0, 0xffff'fff0) + aedat2(0, 5) +
+                                                 aedat2(0, 0xffff'fff8) + aedat2(0, 7));
+    EXPECT_EQ(all.events.size(), 2U);
+    EXPECT_EQ(all.error, "a.aedat: byte 42: time goes back from 4294967301 to 4294967288 us");
 }
 
 TEST(Aedat2Reader, reads_a_davis_past_its_frames_and_samples) {
@@ -245,6 +259,8 @@ TEST(Aedat4Reader, delivers_the_good_events_before_each_kind_of_bad_packet) {
     for (const auto& [bad, cause] : std::vector<std::pair<std::string, std::string>>{
              {framed(0, packet_of({{late - 1, 1, 1, 0}})),
               "event 0 of the packet: time goes back from 1600000000000005 to 1600000000000004 us"},
+             {framed(0, packet_of({{std::int64_t{1} << 53, 1, 1, 0}})),
+              "event 0 of the packet: time 9007199254740992 us is not below 2^53 us"},
              {framed(0, packet_of({{late, 346, 1, 0}})),
               "event 0 of the packet: pixel (346, 1) is outside 346x260"},
              {framed(0, packet_of({{late, 1, 1, 2}})),

@@ -138,14 +138,32 @@ TEST(DatReader, keeps_returning_its_error) {
 
 TEST(DatReader, unwraps_time_at_32_bits_as_often_as_it_wraps) {
     const std::uint32_t high = 0xffff'fff0;
-    const auto all = decode_dat(plain_header + v2(high, 0, 0, 0) + v2(3, 0, 0, 0) +
-                                v2(0x7000'0000, 0, 0, 0) + v2(high, 0, 0, 0) + v2(4, 0, 0, 0));
+    const auto all =
+        decode_dat(plain_header + v2(high, 0, 0, 0) + v2(3, 0, 0, 0) + v2(0x7000'0000, 0, 0, 0) +
+                   v2(0x9000'0000, 0, 0, 0) + v2(high, 0, 0, 0) + v2(4, 0, 0, 0));
     ASSERT_EQ(all.error, "");
     const std::int64_t wrap = std::int64_t{1} << 32;
     EXPECT_EQ(all.events[0].t_us, high);
     EXPECT_EQ(all.events[1].t_us, wrap + 3);
-    EXPECT_EQ(all.events[3].t_us, wrap + high);
-    EXPECT_EQ(all.events[4].t_us, 2 * wrap + 4);
+    EXPECT_EQ(all.events[4].t_us, wrap + high);
+    EXPECT_EQ(all.events[5].t_us, 2 * wrap + 4);
+}
+
+TEST(DatReader, an_event_that_is_late_across_the_wrap_goes_back_and_time_does_not_jump) {
+    const auto before = v2(0xffff'fff0, 1, 1, 0) + v2(5, 1, 1, 0);
+    const std::string late = v2(0xffff'fff8, 1, 1, 0);
+    std::string rest;
+    for (std::uint32_t t_us = 7; t_us < 3000; ++t_us) rest += v2(t_us, 1, 1, 0);
+    for (const auto& between : {std::string(), rest}) {
+        const auto all = decode_dat(plain_header + before + between + late + rest);
+        EXPECT_EQ(all.events.size(), 2 + between.size() / 8);
+        EXPECT_THAT(all.error,
+                    HasSubstr("byte " + std::to_string(plain_header.size() + 16 + between.size())));
+        EXPECT_THAT(all.error, HasSubstr(between.empty() ? "from 4294967301 to 4294967288 us"
+                                                         : "from 4294970295 to 4294967288 us"));
+    }
+    // Before any wrap a rise is a rise, however large.
+    EXPECT_EQ(decode_dat(plain_header + v2(5, 1, 1, 0) + late).error, "");
 }
 
 /// The decoder written as its description says, one event after the other.
@@ -162,7 +180,8 @@ ReadAll reference(const std::string& bytes, Geometry geometry) {
         const auto y = address >> 14 & 0x3fff;
         const auto polarity = address >> 28;
         const bool wrap = last > t_us && last - t_us > 0x8000'0000U;
-        if (x >= geometry.width || y >= geometry.height || polarity > 1 || (t_us < last && !wrap)) {
+        if (x >= geometry.width || y >= geometry.height || polarity > 1 || (t_us < last && !wrap) ||
+            (epoch > 0 && t_us > last && t_us - last > 0x8000'0000U)) {
             all.error = "bad";
             return all;
         }

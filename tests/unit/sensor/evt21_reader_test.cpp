@@ -43,6 +43,14 @@ TEST(Evt21Reader, reads_vectors_lowest_bit_first_in_either_order_of_halves) {
     }
 }
 
+TEST(Evt21Reader, an_event_that_is_late_across_the_wrap_goes_back_and_time_does_not_jump) {
+    const auto wrapped = evt21 + high21(0xfff'ffff) + word21(1, 63, 0, 1, 1) + high21(0) +
+                         word21(1, 1, 0, 1, 1) + high21(0xfff'ffff);
+    EXPECT_EQ(decode_raw(wrapped + word21(1, 63, 0, 1, 1)).error,
+              "a.raw: byte " + std::to_string(wrapped.size()) +
+                  ": time goes back from 17179869185 to 17179869183 us");
+}
+
 TEST(Evt21Reader, delivers_the_good_events_before_each_kind_of_bad_one) {
     const auto good = evt21 + high21(2) + word21(1, 3, 0, 1, 1);
     const auto at = "a.raw: byte " + std::to_string(good.size()) + ": ";

@@ -33,10 +33,22 @@ TEST(Evt2Reader, reads_events_and_passes_over_what_is_none) {
 TEST(Evt2Reader, unwraps_time_where_time_high_falls_by_more_than_half_of_its_range) {
     const auto all =
         decode_raw(evt2 + high2(0xfff'ffff) + word2(1, 63, 1, 1) + high2(0) + word2(1, 0, 1, 1) +
-                   high2(0xfff'fff0) + high2(1) + word2(1, 0, 1, 1));
+                   high2(0x800'0000) + high2(0xfff'fff0) + high2(1) + word2(1, 0, 1, 1));
     EXPECT_EQ(all.error, "");
     const std::int64_t wrap = std::int64_t{1} << 34;
     EXPECT_EQ(all.events, (Events{{wrap - 1, 1, 1, 1}, {wrap, 1, 1, 1}, {2 * wrap + 64, 1, 1, 1}}));
+}
+
+TEST(Evt2Reader, an_event_that_is_late_across_the_wrap_goes_back_and_time_does_not_jump) {
+    const auto wrapped = evt2 + high2(0xfff'ffff) + word2(1, 63, 1, 1) + high2(0) +
+                         word2(1, 1, 1, 1) + high2(0xfff'ffff);
+    EXPECT_EQ(decode_raw(wrapped + word2(1, 63, 1, 1)).error,
+              "a.raw: byte " + std::to_string(wrapped.size()) +
+                  ": time goes back from 17179869185 to 17179869183 us");
+    // A time without an event is passed over, as every other that goes back.
+    const auto all = decode_raw(wrapped + high2(0) + word2(1, 2, 1, 1));
+    EXPECT_EQ(all.error, "");
+    EXPECT_EQ(all.events.back().t_us, (std::int64_t{1} << 34) + 2);
 }
 
 TEST(Evt2Reader, an_event_before_the_first_time_is_an_error_or_skipped_where_one_joins_late) {

@@ -50,6 +50,18 @@ TEST(Evt3Reader, time_follows_time_high) {
                                   {(1 << 24) + 7, 5, 1, 0}}));
 }
 
+TEST(Evt3Reader, an_event_that_is_late_across_the_wrap_goes_back_and_time_does_not_jump) {
+    const auto wrapped =
+        evt3 + bytes_of({word3(0, 1), word3(8, 0xfff), word3(6, 9), word3(2, 1), word3(8, 0),
+                         word3(6, 3), word3(2, 2), word3(8, 0xfff), word3(6, 10)});
+    EXPECT_EQ(decode_raw(wrapped + bytes_of({word3(2, 3)})).error,
+              "a.raw: byte " + std::to_string(wrapped.size()) +
+                  ": time goes back from 16777219 to 16773130 us");
+    const auto all = decode_raw(wrapped + bytes_of({word3(8, 0), word3(6, 4), word3(2, 3)}));
+    EXPECT_EQ(all.error, "");
+    EXPECT_EQ(all.events.back(), (Event{(1 << 24) + 4, 3, 1, 0}));
+}
+
 TEST(Evt3Reader, delivers_the_good_events_before_each_kind_of_bad_one) {
     const auto good = evt3 + bytes_of({word3(8, 1), word3(6, 9), word3(0, 1), word3(2, 1)});
     const auto size = good.size();
