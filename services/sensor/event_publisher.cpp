@@ -23,9 +23,6 @@ std::string range_text(const disk::SensorConfig& config) {
     return text.str();
 }
 
-/// After the last packet, so that leaving does not cut off what is being sent again.
-const eprosima::fastrtps::Duration_t farewell_time{1, 0};
-
 }  // namespace
 
 EventPublisher::EventPublisher(const disk::SensorConfig& config, Writer<v1::EventPacket>& events,
@@ -62,8 +59,10 @@ void EventPublisher::run() {
     state_ = State::running;
     for (;;) {
         bool source_failed = false;
-        if (!send_stream(*source_, source_failed)) return;
-        events_.wait_acknowledged(farewell_time);
+        const bool whole = send_stream(*source_, source_failed);
+        sender_.end();
+        sender_.farewell();
+        if (!whole) return;
         if (source_failed) {
             state_ = State::failed;
             return;
@@ -117,7 +116,7 @@ bool EventPublisher::send_stream(EventReader& source, bool& source_failed) {
             health_.error(source_name(config_) + ": no event lies within " + range_text(config_));
             source_failed = true;
         }
-        if (!batch || batch->at_end) return sender_.end();
+        if (!batch || batch->at_end) return true;
         if (source.time_us() == 0 && batch->events + batch->exposures == 0) continue;
         if (!sender_.send(std::span(events).first(batch->events),
                           std::span(exposures).first(batch->exposures), source.time_us())) {

@@ -32,7 +32,8 @@ class EventPublisher final : public Publisher {
  private:
     void run();
     bool wait_for_subscribers();
-    /// One stream, to its end; false when stopped. An error of the source ends the stream early.
+    /// One stream, all but its end; false when stopped. An error of the source ends the stream
+    /// early.
     bool send_stream(EventReader& source, bool& source_failed);
 
     const disk::SensorConfig& config_;

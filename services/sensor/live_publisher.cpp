@@ -41,6 +41,13 @@ void LivePublisher::stop() {
     pacer_.stop();
     if (sending_.joinable()) sending_.join();
     if (hearing_.joinable()) hearing_.join();
+    // What came and was not sent.
+    for (LiveItem item; sink_.queue().take(item, std::chrono::milliseconds(0));) {
+        count_dropped(item);
+        counts_.events_in += item.events.size();
+        counts_.events_left += item.events.size();
+        counts_.exposures_left += item.exposures.size();
+    }
 }
 
 void LivePublisher::hear() {
@@ -54,16 +61,22 @@ void LivePublisher::send() {
     LiveItem item;
     while (!sink_.queue().finished()) {
         const bool came = sink_.queue().take(item, flush_after);
-        if (!(came ? send(item) : sender_.flush())) return;
+        if (!(came ? send(item) : sender_.flush())) break;
     }
-    if (!sender_.end()) return;
+    sender_.end();
+    sender_.farewell();
+    if (stop_.raised()) return;
     state_ = fault_.empty() ? State::finished : State::failed;
 }
 
-bool LivePublisher::send(LiveItem& item) {
+void LivePublisher::count_dropped(const LiveItem& item) {
     counts_.events_in += item.dropped_events;
     counts_.events_overtaken += item.dropped_events;
     counts_.exposures_overtaken += item.dropped_exposures;
+}
+
+bool LivePublisher::send(LiveItem& item) {
+    count_dropped(item);
     switch (item.kind) {
         case LiveItem::Kind::begin: {
             tie_us_ = 0;
@@ -90,7 +103,8 @@ bool LivePublisher::send(LiveItem& item) {
             fault_ = item.fault;
             if (!fault_.empty()) health_.error(fault_);
             state_ = State::waiting;
-            return sender_.end();
+            sender_.end();
+            return true;
     }
     return true;
 }

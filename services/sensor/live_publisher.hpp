@@ -41,6 +41,7 @@ class LivePublisher final : public Publisher {
     void send();
     /// False when stopped.
     bool send(LiveItem& item);
+    void count_dropped(const LiveItem& item);
     bool wait_for_subscribers();
 
     const disk::SensorConfig& config_;

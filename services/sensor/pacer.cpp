@@ -95,6 +95,11 @@ bool Pacer::paused() const {
     return paused_;
 }
 
+bool Pacer::stopped() const {
+    const std::lock_guard lock(mutex_);
+    return stopped_;
+}
+
 std::int64_t Pacer::lag_us() const {
     const std::lock_guard lock(mutex_);
     return lag_us_;

@@ -39,6 +39,7 @@ class Pacer {
 
     double rate() const;
     bool paused() const;
+    bool stopped() const;
 
     /// How much later than due the last wait returned, us of wall time; 0 as fast as possible.
     std::int64_t lag_us() const;

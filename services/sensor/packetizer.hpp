@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "services/common/event.hpp"
@@ -29,7 +30,7 @@ struct EventBatch {
 /// 20 ms of event time, counted from the last event, so that event time never stops. The stream
 /// ends with an empty batch at last t_us + 1.
 ///
-/// A stream that is cut short ends in order too: push({}), finish(), next() until null.
+/// A stream that is cut short ends in order too: cut(), finish(), next() until null.
 ///
 /// Pull: push() a span of events and advance() to the time reached, then next() until it returns
 /// null, again and again; finish() once, then next() until null. One batch is held at a time,
@@ -55,6 +56,13 @@ class Packetizer {
 
     /// Closes the batch that is being filled, once what was pushed is in it.
     void flush() { flushing_ = true; }
+
+    /// Leaves out what was pushed and is in no batch yet, and the time told beyond it: the stream
+    /// is cut short. Returns how many events that are.
+    std::size_t cut() {
+        reached_us_ = -1;
+        return std::exchange(events_, {}).size();
+    }
 
     /// No event follows.
     void finish() { finished_ = true; }

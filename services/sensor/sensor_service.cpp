@@ -207,6 +207,7 @@ v1::SensorStatus SensorService::status() const {
         dropped += count;
     };
     events("events.write_failed", counts.events_unsent);
+    events("events.unsent_at_stop", counts.events_left);
     for (std::size_t kind = 0; kind < counts.filtered.size(); ++kind) {
         events("filter." + std::string(filter_kinds()[kind].name), counts.filtered[kind]);
     }
@@ -215,6 +216,7 @@ v1::SensorStatus SensorService::status() const {
     // Not of events.
     cause("exposures.write_failed", counts.exposures_unsent);
     cause("exposures.queue_full", counts.exposures_overtaken);
+    cause("exposures.unsent_at_stop", counts.exposures_left);
     cause("packets.unacknowledged", counts.packets_unacknowledged);
     status.event_rate_hz(event_rate_hz_);
     status.lag_us(static_cast<double>(pacer_.lag_us()));

@@ -17,6 +17,7 @@ constexpr std::int64_t slice_us = 1000;
 /// that the writer keeps are on their way.
 constexpr std::uint64_t packets_per_acknowledgement = 16;
 const eprosima::fastrtps::Duration_t acknowledgement_time{0, 200'000'000};
+const eprosima::fastrtps::Duration_t farewell_time{1, 0};
 
 /// Takes from the front of `events` those before `end_us`, at most `most`.
 std::span<Event> take_before(std::span<Event>& events, std::int64_t end_us, std::size_t most) {
@@ -69,27 +70,31 @@ bool StreamSender::send(std::span<Event> events, std::span<Event> exposures,
                         std::int64_t reached_us) {
     counts_.events_in += events.size();
     while (!events.empty() || !exposures.empty()) {
+        if (pacer_.stopped()) {
+            counts_.events_left += events.size();
+            counts_.exposures_left += exposures.size();
+            return false;
+        }
         auto end_us = slice_us + std::min(events.empty() ? reached_us : events.front().t_us,
                                           exposures.empty() ? reached_us : exposures.front().t_us);
         const auto some = take_before(events, end_us, slice_events);
         if (some.size() == slice_events) end_us = some.back().t_us;
         const auto beside = take_before(exposures, end_us, exposures.size());
         const bool last = events.empty() && exposures.empty();
-        if (!send_slice(some, beside, last ? reached_us : std::min(end_us, reached_us))) {
-            return false;
-        }
+        send_slice(some, beside, last ? reached_us : std::min(end_us, reached_us));
     }
-    return send_slice({}, {}, reached_us);
+    send_slice({}, {}, reached_us);
+    return !pacer_.stopped();
 }
 
-bool StreamSender::send_slice(std::span<Event> events, std::span<Event> exposures,
+void StreamSender::send_slice(std::span<Event> events, std::span<Event> exposures,
                               std::int64_t reached_us) {
     if (auto next = filters_.take()) {
         if (next->geometry() == chain_->geometry()) {
             chain_ = std::move(next);
         } else {
             // Readers rely on one size of image within a stream.
-            if (!end()) return false;
+            end();
             open(std::move(next));
         }
     }
@@ -103,46 +108,57 @@ bool StreamSender::send_slice(std::span<Event> events, std::span<Event> exposure
         exposures_packets_->push(exposures.first(chain_->apply_to_exposures(exposures)));
         exposures_packets_->advance(reached_us);
     }
-    return write_batches();
+    write_batches();
 }
 
 bool StreamSender::flush() {
     if (!in_stream()) return true;
     events_packets_->flush();
     if (exposures_packets_) exposures_packets_->flush();
-    return write_batches();
+    write_batches();
+    return !pacer_.stopped();
 }
 
-bool StreamSender::end() {
-    if (!in_stream()) return true;
+void StreamSender::end() {
+    if (!in_stream()) return;
     events_packets_->finish();
     if (exposures_packets_) exposures_packets_->finish();
-    const bool written = write_batches();
+    write_batches();
     events_packets_.reset();
     exposures_packets_.reset();
-    return written;
+}
+
+void StreamSender::farewell() {
+    const auto& at_most = pacer_.stopped() ? acknowledgement_time : farewell_time;
+    events_.wait_acknowledged(at_most);
+    exposures_.wait_acknowledged(at_most);
 }
 
 /// Every batch that is complete, of both topics in the order of their time.
-bool StreamSender::write_batches() {
+void StreamSender::write_batches() {
     EventBatch* event = events_packets_->next();
     EventBatch* exposure = exposures_packets_ ? exposures_packets_->next() : nullptr;
     while (event != nullptr || exposure != nullptr) {
         if (exposure == nullptr ||
             (event != nullptr && event->complete_us <= exposure->complete_us)) {
-            if (!write(*event, events_, events_sequence_)) return false;
+            write(*event, events_, events_sequence_);
             event = events_packets_->next();
         } else {
-            if (!write(*exposure, exposures_, exposures_sequence_)) return false;
+            write(*exposure, exposures_, exposures_sequence_);
             exposure = exposures_packets_->next();
         }
     }
-    return true;
 }
 
-bool StreamSender::write(EventBatch& batch, Writer<v1::EventPacket>& writer,
+/// The pacer was stopped: the batch that is being filled is the last.
+void StreamSender::cut() {
+    counts_.events_left += events_packets_->cut();
+    if (exposures_packets_) counts_.exposures_left += exposures_packets_->cut();
+}
+
+void StreamSender::write(EventBatch& batch, Writer<v1::EventPacket>& writer,
                          std::uint64_t& sequence) {
-    if (!pacer_.wait_until(batch.complete_us)) return false;
+    if (!pacer_.wait_until(batch.complete_us)) cut();
     const bool of_events = &writer == &events_;
     const auto size = counts_.size.load();
     packet_.sensor_id(config_.sensor_id());
@@ -169,7 +185,6 @@ bool StreamSender::write(EventBatch& batch, Writer<v1::EventPacket>& writer,
     if (awaits_readers_ && pacer_.rate() == 0 && ++packets_ % packets_per_acknowledgement == 0) {
         await_acknowledgement();
     }
-    return true;
 }
 
 std::uint64_t StreamSender::lost_exposures() const {

@@ -28,6 +28,8 @@ struct PublisherCounts {
     std::atomic<std::uint64_t> packets_unacknowledged{0};  ///< waited for in vain
     std::atomic<std::uint64_t> events_overtaken{0};  ///< of a live source, before they were sent
     std::atomic<std::uint64_t> exposures_overtaken{0};
+    std::atomic<std::uint64_t> events_left{0};  ///< still to be sent when the sensor was stopped
+    std::atomic<std::uint64_t> exposures_left{0};
     FilterCounts filtered{};
     std::atomic<std::uint64_t> stream_id{0};
     std::atomic<std::int64_t> last_t_us{0};
@@ -58,22 +60,26 @@ class StreamSender {
     Result<void> begin(Geometry input);
 
     /// Sends what came next, each in order of time; changes it in place. Nothing that follows is
-    /// earlier than `reached_us`. False when the pacer was stopped.
+    /// earlier than `reached_us`. False when the pacer was stopped: what is not sent is counted.
     bool send(std::span<Event> events, std::span<Event> exposures, std::int64_t reached_us);
 
     /// Sends what waits for its packet to be full.
     bool flush();
 
-    /// Sends the rest, and that the stream has ended.
-    bool end();
+    /// Sends the rest, and that the stream has ended; after the pacer's stop at once.
+    void end();
+
+    /// Waits for the readers, so that leaving does not cut off what is being sent again.
+    void farewell();
 
     bool in_stream() const { return events_packets_.has_value(); }
 
  private:
     void open(std::unique_ptr<FilterChain> chain);
-    bool send_slice(std::span<Event> events, std::span<Event> exposures, std::int64_t reached_us);
-    bool write_batches();
-    bool write(EventBatch& batch, Writer<v1::EventPacket>& writer, std::uint64_t& sequence);
+    void send_slice(std::span<Event> events, std::span<Event> exposures, std::int64_t reached_us);
+    void write_batches();
+    void cut();
+    void write(EventBatch& batch, Writer<v1::EventPacket>& writer, std::uint64_t& sequence);
     void await_acknowledgement();
     std::uint64_t lost_events() const;
     std::uint64_t lost_exposures() const;

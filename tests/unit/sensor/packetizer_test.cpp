@@ -75,6 +75,25 @@ TEST(Packetizer, one_event_makes_one_packet_and_the_end_one_microsecond_later) {
     EXPECT_EQ(batches[1].base_time_us, 51);
 }
 
+TEST(Packetizer, cut_short_gives_what_it_was_filling_and_the_end_and_tells_how_much_is_left) {
+    Packetizer packetizer({2, 1000});
+    const std::vector<Event> events = {{5, 1, 1, 1}, {6, 1, 1, 1}, {7, 1, 1, 1}, {8, 1, 1, 1}};
+    packetizer.push(events);
+    packetizer.advance(90'000);
+    ASSERT_NE(packetizer.next(), nullptr);
+    EXPECT_EQ(packetizer.cut(), 2U);
+    EXPECT_EQ(packetizer.next(), nullptr);
+    packetizer.push(std::span(events).last(1));
+    EXPECT_EQ(packetizer.next(), nullptr);
+    packetizer.finish();
+    EXPECT_EQ(events_of(*packetizer.next()), (std::vector<Event>{events.back()}));
+    const auto* end = packetizer.next();
+    ASSERT_NE(end, nullptr);
+    EXPECT_TRUE(end->end_of_stream);
+    EXPECT_EQ(end->base_time_us, 9);
+    EXPECT_EQ(packetizer.next(), nullptr);
+}
+
 TEST(Packetizer, closes_by_count_even_within_one_microsecond) {
     const auto batches = batches_of(std::vector<Event>(5, {9, 0, 0, 0}), {2, 1000});
     ASSERT_EQ(batches.size(), 4U);
