@@ -105,7 +105,7 @@ bool EventPublisher::send_stream(EventReader& source, bool& source_failed) {
     bool owes_events = config_.start_s() != 0 || config_.end_s() != 0;
     std::vector<Event> events(events_per_read);
     std::vector<Event> exposures(source.has_exposures() ? events_per_read : 0);
-    for (;;) {
+    while (!stopping_) {
         const auto batch = source.read(events, exposures);
         if (!batch) {
             health_.error(batch.error().message);
@@ -123,6 +123,7 @@ bool EventPublisher::send_stream(EventReader& source, bool& source_failed) {
             return false;
         }
     }
+    return false;
 }
 
 }  // namespace pursuit::sensor

@@ -5,6 +5,7 @@ namespace pursuit::sensor {
 namespace {
 
 constexpr std::int64_t slice_us = 1000;
+constexpr std::int64_t most_silence_a_call_us = 100'000;
 constexpr std::int64_t longest_silence_us = 3'600'000'000;
 
 }  // namespace
@@ -15,8 +16,14 @@ void SceneReader::Slice::clear() {
 }
 
 EventReader::Decoded SceneReader::decode(std::span<Event> events, std::span<Event> exposures) {
-    const auto give_up_us = simulator_.time_us() + longest_silence_us;
+    Decoded done;
+    const auto begin_us = simulator_.time_us();
+    const auto give_up_us = silent_since_us_ + longest_silence_us;
     while (events_.empty() && exposures_.empty() && simulator_.time_us() < give_up_us) {
+        if (simulator_.time_us() - begin_us >= most_silence_a_call_us) {
+            done.goes_on = true;
+            return done;
+        }
         events_.clear();
         exposures_.clear();
         if (!simulator_.next(slice_us, events_.events,
@@ -25,7 +32,7 @@ EventReader::Decoded SceneReader::decode(std::span<Event> events, std::span<Even
         }
     }
     // In order of time over both, until one of the spans is full.
-    Decoded done;
+    silent_since_us_ = simulator_.time_us();
     if (exposures.empty()) exposures_.clear();
     while (!events_.empty() || !exposures_.empty()) {
         const bool event_next =

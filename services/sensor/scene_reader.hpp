@@ -13,7 +13,7 @@ namespace pursuit::sensor {
 
 /// A simulated scene as a source of events: the same ones for the same scene and seed, made while
 /// they are read. A scene in which nothing happens for an hour of its time ends there, so that
-/// reading always returns.
+/// reading always ends; one call passes over 0.1 s of silence at most, so that it returns soon.
 class SceneReader final : public EventReader {
  public:
     SceneReader(const Scene& scene, std::uint64_t seed) : simulator_(scene, seed) {}
@@ -37,6 +37,7 @@ class SceneReader final : public EventReader {
     };
 
     SceneSimulator simulator_;
+    std::int64_t silent_since_us_ = 0;
     Slice events_;
     Slice exposures_;
 };

@@ -102,6 +102,18 @@ TEST_F(SensorStop, within_a_scene_sends_what_it_was_filling_counts_the_rest_and_
     EXPECT_GT(unsent(last()), 0U);
 }
 
+TEST_F(SensorStop, while_it_skips_to_where_its_range_begins_ends_at_once) {
+    const auto scene = folder_.file("noise.scene.textproto",
+                                    "name: 'noise' background_reflectance: 0.5\n"
+                                    "sensor { width: 32 height: 32 noise_hz: 10 }\n");
+    const auto process = sensor({"scene=" + scene, "start_s=5000000"});
+    ASSERT_TRUE(eventually([&] { return last().health().state() == v1::SERVICE_RUNNING; }))
+        << process->log();
+    EXPECT_LT(process->stop(), 2s);
+    EXPECT_EQ(process->wait(), 0) << process->log();
+    expect_all_told();
+}
+
 TEST_F(SensorStop, while_a_live_source_is_paused_counts_what_waits) {
     const auto fifo = folder_.path("camera");
     ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);

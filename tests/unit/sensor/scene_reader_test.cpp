@@ -53,5 +53,25 @@ TEST(SceneReader, delivers_events_and_the_grey_level_that_each_pixel_came_to) {
     for (int y = 0; y < 16; ++y) EXPECT_NEAR(grey.at({10, y}), 0.12, 0.03);
 }
 
+TEST(SceneReader, returns_soon_from_a_silence_without_an_end_and_says_that_it_goes_on) {
+    const auto scene = parse_scene(
+        "name: 's' duration_s: 1 background_reflectance: 0.5 sensor { width: 8 height: 8 "
+        "mismatch: 0 jitter_us: 0 noise_hz: 0 hot_pixels: 0 }",
+        "s");
+    ASSERT_TRUE(scene) << scene.error().message;
+    SceneReader reader(*scene, 1);
+    std::vector<Event> events(7);
+    int calls = 0;
+    for (;;) {
+        const auto batch = reader.read(events, {});
+        ASSERT_TRUE(batch);
+        EXPECT_EQ(batch->events, 0U);
+        if (batch->at_end) break;
+        ++calls;
+    }
+    EXPECT_GE(calls, 9);
+    EXPECT_LE(calls, 10);
+}
+
 }  // namespace
 }  // namespace pursuit::sensor
