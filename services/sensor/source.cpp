@@ -2,6 +2,7 @@
 #include "services/sensor/source.hpp"
 
 #include <charconv>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -85,6 +86,15 @@ Result<std::unique_ptr<EventReader>> open_source(const disk::SensorConfig& confi
     if (!range) {
         return tl::unexpected<Error>(Error{"fields start_s, end_s: " + range.error().message,
                                            config.end_s() != 0 ? "end_s" : "start_s"});
+    }
+    std::error_code not_there;  // then opening it says so
+    const std::filesystem::path recording(config.recording());
+    if (std::filesystem::exists(recording, not_there) &&
+        !std::filesystem::is_regular_file(recording, not_there) &&
+        !std::filesystem::is_directory(recording, not_there)) {
+        return fail_field("recording", ": " + config.recording() +
+                                           " is not a regular file; a FIFO or a device is heard "
+                                           "with live");
     }
     const bool is_scene = !config.scene().empty();
     auto source =

@@ -3,12 +3,11 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <set>
 
 #include "services/common/settings.hpp"
+#include "services/common/small_file.hpp"
 #include "services/common/text_format.hpp"
 #include "services/sensor/scene/builtin_scenes.hpp"
 #include "services/sensor/scene/polygon.hpp"
@@ -21,7 +20,7 @@ using Problem = std::optional<Error>;
 
 Error problem(const std::string& field, const std::string& what) { return {field + what, field}; }
 
-constexpr std::uintmax_t max_file_bytes = 16ULL << 20;
+constexpr std::size_t most_file_mib = 16;
 
 Problem interval_problem(const disk::Interval& interval, const std::string& where, double least,
                          double most) {
@@ -207,14 +206,9 @@ Result<Scene> load_scene(const std::string& path_or_builtin_name,
         for (const auto& builtin : builtin_scenes()) names += " " + std::string(builtin.name);
         return fail(path + ": no such file, and no built-in scene; these are built in:" + names);
     }
-    if (std::filesystem::is_directory(path, error)) return fail(path + ": is a folder");
-    const auto size = std::filesystem::file_size(path, error);
-    if (!error && size > max_file_bytes) return fail(path + ": larger than 16 MiB");
-    std::ifstream in(path, std::ios::binary);
-    if (!in) return fail(path + ": cannot be opened");
-    const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (in.bad()) return fail(path + ": cannot be read");
-    return parse_scene(text, path, settings);
+    const auto text = read_small_file(path, most_file_mib);
+    if (!text) return tl::unexpected(text.error());
+    return parse_scene(*text, path, settings);
 }
 
 std::vector<std::string> list_builtin_scenes() {

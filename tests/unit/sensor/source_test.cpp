@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "services/sensor/formats/formats.hpp"
 #include "services/sensor/range_reader.hpp"
@@ -64,6 +65,22 @@ TEST(OpenSource, an_error_after_the_range_does_not_matter_and_one_before_its_end
     const auto all = read_all(**open_source(config), 2);
     EXPECT_EQ(all.events.size(), 3U);
     EXPECT_THAT(all.error, HasSubstr("line 4"));
+}
+
+TEST(OpenSource, does_not_wait_for_the_writer_of_a_fifo_but_names_what_does) {
+    const test::TemporaryFolder folder;
+    const auto fifo = folder.path("camera.dat");
+    ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+    disk::SensorConfig config;
+    config.set_recording(fifo);
+    EXPECT_EQ(open_source(config).error().message,
+              "field recording: " + fifo +
+                  " is not a regular file; a FIFO or a device is heard with live");
+    config.clear_recording();
+    config.set_scene(fifo);
+    EXPECT_EQ(open_source(config).error().message, fifo + ": is not a regular file");
+    config.set_scene(folder.path(""));
+    EXPECT_THAT(open_source(config).error().message, HasSubstr("is a folder"));
 }
 
 TEST(OpenSource, needs_exactly_one_source_and_a_range_that_holds_time) {
