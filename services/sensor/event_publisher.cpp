@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/sensor/event_publisher.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <chrono>
 #include <sstream>
 #include <vector>
@@ -63,6 +65,9 @@ void EventPublisher::run() {
         sender_.end();
         sender_.farewell();
         if (!whole) return;
+        if (!source_failed && source_->events_read() + source_->exposures_read() == 0) {
+            source_failed = !may_be_empty();
+        }
         if (source_failed) {
             state_ = State::failed;
             return;
@@ -78,6 +83,18 @@ void EventPublisher::run() {
         pacer_.restart();
     }
     state_ = State::finished;
+}
+
+bool EventPublisher::may_be_empty() const {
+    const bool has_range = config_.start_s() != 0 || config_.end_s() != 0;
+    const auto what = (config_.has_scene() ? config_.scene() : config_.recording()) +
+                      (has_range ? ": no event lies between start_s and end_s" : ": has no event");
+    if (config_.loop()) {
+        health_.error(what + ", nothing to repeat");
+        return false;
+    }
+    spdlog::warn("{}", what);
+    return true;
 }
 
 std::string EventPublisher::remark() const {

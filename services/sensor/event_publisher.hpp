@@ -32,6 +32,8 @@ class EventPublisher final : public Publisher {
  private:
     void run();
     bool wait_for_subscribers();
+    /// Tells of a pass that gave nothing; a loop of such would spin.
+    bool may_be_empty() const;
     /// One stream, all but its end; false when stopped. An error of the source ends the stream
     /// early.
     bool send_stream(EventReader& source, bool& source_failed);
