@@ -28,15 +28,39 @@ void LiveQueue::end(std::string fault) {
     forget_empty_streams();
 }
 
+/// Takes an item out; what it tells of drops goes to the one behind it, whose place is returned.
+LiveQueue::Items::iterator LiveQueue::take_out(Items::iterator item) {
+    const auto events = item->dropped_events;
+    const auto exposures = item->dropped_exposures;
+    item = items_.erase(item);
+    if (events + exposures == 0) return item;
+    // Nothing behind it: what is about to come tells of it.
+    if (item == items_.end()) item = items_.emplace(item);
+    item->dropped_events += events;
+    item->dropped_exposures += exposures;
+    return item;
+}
+
 /// Streams of which no event is left, where many of them wait: nobody misses them.
 void LiveQueue::forget_empty_streams() {
-    const auto is = [](const LiveItem& item, LiveItem::Kind kind) { return item.kind == kind; };
+    using Kind = LiveItem::Kind;
     for (auto item = items_.begin(); items_.size() > 2 * most_streams;) {
-        item = std::adjacent_find(item, items_.end(), [&](const auto& a, const auto& b) {
-            return is(a, LiveItem::Kind::begin) && is(b, LiveItem::Kind::end);
-        });
+        const auto next = item + 1;
+        if (next == items_.end()) return;
+        const bool only_time = item->kind == Kind::events && size_of(*item) == 0;
+        if (only_time) {
+            item = take_out(item);
+        } else if (item->kind == Kind::begin && next->kind == Kind::end) {
+            item = take_out(take_out(item));
+        } else if (item->kind == Kind::end && next->kind == Kind::end) {
+            item = take_out(next);  // of a stream that could not begin
+        } else {
+            item = next;
+            continue;
+        }
+        // What stands before it may be empty now, too.
+        if (item != items_.begin()) --item;
         if (item == items_.end()) return;
-        item = items_.erase(item, item + 2);
     }
 }
 
@@ -73,13 +97,10 @@ void LiveQueue::make_room(std::size_t wanted) {
         totals_.waiting -= size_of(*oldest);
         totals_.dropped_events += oldest->events.size();
         totals_.dropped_exposures += oldest->exposures.size();
-        const auto events = oldest->dropped_events + oldest->events.size();
-        const auto exposures = oldest->dropped_exposures + oldest->exposures.size();
-        oldest = items_.erase(oldest);
+        oldest->dropped_events += oldest->events.size();
+        oldest->dropped_exposures += oldest->exposures.size();
         // The next of the stream tells of it: more events, its end, or what is about to come.
-        if (oldest == items_.end()) oldest = items_.emplace(oldest);
-        oldest->dropped_events += events;
-        oldest->dropped_exposures += exposures;
+        oldest = take_out(oldest);
     }
 }
 

@@ -73,14 +73,16 @@ class LiveQueue {
     static std::size_t size_of(const LiveItem& item) {
         return item.events.size() + item.exposures.size();
     }
+    using Items = std::deque<LiveItem>;
     void add(LiveItem item);
+    Items::iterator take_out(Items::iterator item);
     void make_room(std::size_t wanted);
     void forget_empty_streams();
 
     const std::size_t capacity_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<LiveItem> items_;
+    Items items_;
     Totals totals_;
     bool closed_ = false;
 };

@@ -119,6 +119,42 @@ TEST(LiveQueue, forgets_streams_without_events_when_many_wait) {
     EXPECT_EQ(events, 7U);
 }
 
+TEST(LiveQueue, forgets_streams_that_hold_only_time_and_no_count_of_what_was_dropped) {
+    LiveQueue queue(1000);
+    for (int i = 0; i < 10'000; ++i) {
+        queue.begin({4, 3});
+        if (i % 2 == 0) push(queue, 0, 7);
+        if (i % 4 == 0) push(queue, 600, 7);  // the next makes room of them
+        if (i % 3 == 0) push(queue, 0, 9);
+        queue.end("");
+    }
+    LiveItem item;
+    std::size_t items = 0;
+    std::uint64_t events = 0, told = 0;
+    bool in_stream = false;
+    while (queue.take(item, at_once)) {
+        ++items;
+        events += item.events.size();
+        told += item.dropped_events;
+        if (item.kind == Kind::begin) in_stream = true;
+        EXPECT_TRUE(in_stream || item.events.empty());
+        if (item.kind == Kind::end) in_stream = false;
+    }
+    EXPECT_LE(items, 135U);
+    EXPECT_EQ(told, queue.totals().dropped_events);
+    EXPECT_EQ(events + told, 2500U * 600);
+}
+
+TEST(LiveQueue, forgets_faults_of_streams_that_never_began_when_many_wait) {
+    LiveQueue queue(1000);
+    for (int i = 0; i < 10'000; ++i) queue.end("no size");
+    LiveItem item;
+    std::size_t items = 0;
+    while (queue.take(item, at_once)) ++items;
+    EXPECT_GE(items, 1U);
+    EXPECT_LE(items, 132U);
+}
+
 TEST(LiveQueue, loses_nothing_uncounted_on_random_traffic) {
     std::mt19937 random(5);
     LiveQueue queue(30'000);
