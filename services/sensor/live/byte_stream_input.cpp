@@ -48,12 +48,12 @@ bool ByteStreamInput::hear(std::unique_ptr<ByteSource> source, LiveSink& sink,
     std::uint64_t skipped = 0;
     for (;;) {
         const auto batch = (*reader)->read(events_, exposures_);
+        sink.unusable((*reader)->events_skipped() -
+                      std::exchange(skipped, (*reader)->events_skipped()));
         if (!batch) {
             if (!stop.raised()) fault = batch.error().message;
             break;
         }
-        sink.unusable((*reader)->events_skipped() -
-                      std::exchange(skipped, (*reader)->events_skipped()));
         if (batch->at_end) break;
         heard = true;
         sink.push(std::span(events_).first(batch->events),

@@ -35,7 +35,7 @@ typedef struct pursuit_event {
 typedef struct pursuit_sink {
     void* context; /* the first argument of each */
 
-    /* A stream begins, of this size: at most 65535 wide and 32768 high. */
+    /* A stream begins, of this size: at most 65535 wide and 32768 high, or it is a fault. */
     void (*begin)(void* context, uint16_t width, uint16_t height);
 
     /*

@@ -15,7 +15,8 @@ constexpr std::uint16_t most_rows = 32768;
 /// One call of run(): what it hands over is checked and goes on to the sink.
 class Run {
  public:
-    Run(LiveSink& sink, const StopSignal& stop) : sink_(sink), stop_(stop) {}
+    Run(LiveSink& sink, const StopSignal& stop, const std::string& driver)
+        : sink_(sink), stop_(stop), driver_(driver) {}
 
     pursuit_sink functions() {
         return {this,
@@ -43,7 +44,14 @@ class Run {
 
     void begin(Geometry geometry) {
         end("");
-        if (geometry.width == 0 || geometry.height == 0 || geometry.height > most_rows) return;
+        if (geometry.width == 0 || geometry.height == 0 || geometry.height > most_rows) {
+            if (std::exchange(told_of_size_, true)) return;
+            sink_.end("the driver " + driver_ + " begins a stream of " +
+                      std::to_string(geometry.width) + "x" + std::to_string(geometry.height) +
+                      " pixels, must be 1x1 to 65535x" + std::to_string(most_rows));
+            return;
+        }
+        told_of_size_ = false;
         in_stream_ = true;
         geometry_ = geometry;
         reached_us_ = 0;
@@ -72,7 +80,9 @@ class Run {
 
     LiveSink& sink_;
     const StopSignal& stop_;
+    const std::string& driver_;
     bool in_stream_ = false;
+    bool told_of_size_ = false;
     bool heard_ = false;
     Geometry geometry_;
     std::int64_t reached_us_ = 0;
@@ -112,7 +122,7 @@ void DriverInput::run(LiveSink& sink, const StopSignal& stop) {
     BackOff back_off(longest_wait_);
     while (!stop.raised()) {
         sink.waits_for("the driver " + name_);
-        Run run(sink, stop);
+        Run run(sink, stop, name_);
         const auto functions = run.functions();
         const int fault = driver_.run(argument_.c_str(), &functions);
         const std::string what =

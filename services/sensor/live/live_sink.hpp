@@ -24,7 +24,7 @@ class LiveSink {
     /// is earlier than `reached_us`.
     void push(std::span<const Event> events, std::span<const Event> exposures,
               std::int64_t reached_us);
-    /// `fault`: why, where it should not have ended; else empty.
+    /// `fault`: why, where it should not have ended, or why it could not begin; else empty.
     void end(const std::string& fault);
 
     /// Events that came and could not be used: their time is unknown, or they break the contract.

@@ -147,6 +147,16 @@ TEST(ByteStreamInput, counts_events_before_the_first_word_of_time_and_goes_on) {
     EXPECT_EQ(heard.sink.unusable(), 1U);
 }
 
+TEST(ByteStreamInput, counts_events_without_a_time_in_the_bytes_that_make_no_sense_too) {
+    const test::TemporaryFolder folder;
+    const auto fifo = folder.path("camera");
+    ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+    Heard heard(input_of(fifo));
+    write_to(fifo, evt2(0, 1, 1).substr(4) + std::string("\xff\xff\xff\x5f"));
+    EXPECT_THAT(heard.stream().fault, HasSubstr("byte 4: "));
+    EXPECT_EQ(heard.sink.unusable(), 1U);
+}
+
 TEST(ByteStreamInput, waits_for_a_path_that_is_not_there_yet_and_says_so) {
     const test::TemporaryFolder folder;
     const auto fifo = folder.path("camera");
@@ -216,6 +226,18 @@ TEST(DriverInput, leaves_out_and_counts_what_breaks_the_contract_and_begins_agai
         EXPECT_GE(heard.sink.unusable(), 5 * count);
         EXPECT_GE(heard.sink.lost_before(), 11 * count);
     }
+}
+
+TEST(DriverInput, that_begins_a_stream_of_no_size_is_a_fault_which_is_told_once_a_run) {
+    Heard heard(driver_of("no size"));
+    for (unsigned runs = 1; runs <= 2; ++runs) {
+        const auto item = heard.next();
+        EXPECT_EQ(item.kind, Kind::end);
+        EXPECT_EQ(item.fault,
+                  "the driver moving dot begins a stream of 0x240 pixels, must be 1x1 to "
+                  "65535x32768");
+    }
+    EXPECT_GE(heard.sink.unusable(), 1U);
 }
 
 TEST(DriverInput, is_stopped_while_it_waits_for_events) {

@@ -16,8 +16,16 @@ static int run_badly(const pursuit_sink* sink) {
     return 7;
 }
 
+static int run_of_no_size(const pursuit_sink* sink) {
+    const pursuit_event event = {1, 1, 1, 1, {0}};
+    for (int i = 0; i < 3; ++i) sink->begin(sink->context, 0, 240);
+    sink->events(sink->context, &event, 1, 1);
+    return 7;
+}
+
 static int run(const char* argument, const pursuit_sink* sink) {
     if (strcmp(argument, "bad") == 0) return run_badly(sink);
+    if (strcmp(argument, "no size") == 0) return run_of_no_size(sink);
     const long wanted = strncmp(argument, "events=", 7) == 0 ? atol(argument + 7) : 0;
     sink->begin(sink->context, 320, 240);
     for (long i = 0; i < wanted && !sink->stopping(sink->context); ++i) {
