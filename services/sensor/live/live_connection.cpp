@@ -14,7 +14,9 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <future>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 namespace pursuit::sensor {
@@ -22,6 +24,7 @@ namespace {
 
 constexpr std::string_view tcp_scheme = "tcp://";
 constexpr std::chrono::milliseconds connect_time{2000};
+constexpr std::chrono::milliseconds stop_check_time{50};
 constexpr std::chrono::milliseconds for_ever{-1};
 
 class Descriptor final : public ByteSource {
@@ -102,16 +105,34 @@ void keep_alive(int file) {
     set(IPPROTO_TCP, TCP_KEEPCNT, 3);
 }
 
+using Found = std::unique_ptr<addrinfo, void (*)(addrinfo*)>;
+
+/// What a name stands for. The resolver cannot be interrupted and may take half a minute: it works
+/// on a thread of its own, which is left behind when `stop` is raised.
+Result<Found> look_up(const LiveAddress& address, const StopSignal& stop) {
+    std::packaged_task<Result<Found>()> task([address]() -> Result<Found> {
+        addrinfo wanted{};
+        wanted.ai_socktype = SOCK_STREAM;
+        addrinfo* found = nullptr;
+        const int error =
+            ::getaddrinfo(address.host.c_str(), address.port.c_str(), &wanted, &found);
+        if (error != 0) return fail(address.text + ": " + ::gai_strerror(error));
+        return Found(found, ::freeaddrinfo);
+    });
+    auto found = task.get_future();
+    std::thread(std::move(task)).detach();
+    while (found.wait_for(stop_check_time) != std::future_status::ready) {
+        if (stop.raised()) return fail(address.text + ": stopped");
+    }
+    return found.get();
+}
+
 Result<std::unique_ptr<ByteSource>> connect_tcp(const LiveAddress& address,
                                                 const StopSignal& stop) {
-    addrinfo wanted{};
-    wanted.ai_socktype = SOCK_STREAM;
-    addrinfo* found = nullptr;
-    const int looked = ::getaddrinfo(address.host.c_str(), address.port.c_str(), &wanted, &found);
-    if (looked != 0) return fail(address.text + ": " + ::gai_strerror(looked));
-    const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, ::freeaddrinfo);
+    const auto found = look_up(address, stop);
+    if (!found) return tl::unexpected(found.error());
     int error = ENOENT;
-    for (const auto* to = found; to != nullptr && !stop.raised(); to = to->ai_next) {
+    for (const auto* to = found->get(); to != nullptr && !stop.raised(); to = to->ai_next) {
         const int file = ::socket(to->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
         if (file < 0) {
             error = errno;

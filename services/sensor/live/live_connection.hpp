@@ -24,7 +24,8 @@ Result<LiveAddress> parse_live_address(const std::string& text);
 /// Connects, or opens. The source's read() waits until bytes come, and ends when `stop` is raised
 /// or the peer closes; `stop` must outlive it.
 ///
-/// - TCP: waits up to 2 s for the peer. Keepalive finds out within 8 s that its host is gone; a
+/// - TCP: waits for the resolver, then up to 2 s for the peer. Keepalive finds out within 8 s that
+/// its host is gone; a
 ///   peer that is only silent is waited for.
 /// - A FIFO is opened whether or not somebody writes; its stream ends with its last writer.
 /// - A terminal device is set to pass bytes through unchanged, at the speed that it has.
