@@ -29,7 +29,9 @@ LivePublisher::LivePublisher(const disk::SensorConfig& config, Writer<v1::EventP
       sender_(config, events, exposures, pacer, clock, health, filters, counts_,
               [this](std::int64_t t_us) { return tie_ns_ + (t_us - tie_us_) * 1000; }) {
     sender_.await_readers(false);
-    sink_.waits_for(source_name(config));
+    sink_.waits_for(subscribers_wanted() > 0 ? std::to_string(subscribers_wanted()) +
+                                                   " subscriber(s) of " + topic::events
+                                             : source_name(config));
 }
 
 void LivePublisher::start() {
@@ -110,11 +112,7 @@ bool LivePublisher::send(LiveItem& item) {
 }
 
 bool LivePublisher::wait_for_subscribers() {
-    const int wanted = static_cast<int>(config_.wait_for_subscribers());
-    if (wanted > 0) {
-        sink_.waits_for(std::to_string(wanted) + " subscriber(s) of " + topic::events);
-    }
-    while (events_.matched() < wanted && !stop_.raised()) {
+    while (events_.matched() < subscribers_wanted() && !stop_.raised()) {
         stop_.wait(-1, 0, std::chrono::milliseconds(5));
     }
     return !stop_.raised();

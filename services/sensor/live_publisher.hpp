@@ -43,6 +43,7 @@ class LivePublisher final : public Publisher {
     bool send(LiveItem& item);
     void count_dropped(const LiveItem& item);
     bool wait_for_subscribers();
+    int subscribers_wanted() const { return static_cast<int>(config_.wait_for_subscribers()); }
 
     const disk::SensorConfig& config_;
     Writer<v1::EventPacket>& events_;

@@ -161,6 +161,12 @@ class LiveSource(SystemTest):
         self.peer.connection.sendall(evt2(0, 1, 10))
         self.assertEqual(self.sent(10)["state"], "RUNNING")
 
+    def test_a_path_that_is_not_there_is_named_from_the_first_word_on(self):
+        sensor = self.service("sensor", live=self.path("camera"), live_format="evt2",
+                              live_geometry="640x480")
+        self.assertEqual(sensor.stop(), 0)
+        self.assertIn(f"ready: waiting for {self.path('camera')}", sensor.err())
+
     def test_a_flood_drops_the_oldest_counts_them_and_is_caught_up_with(self):
         # Small packets make a slow bus.
         self.service("tracker")
