@@ -86,9 +86,7 @@ void EventPublisher::run() {
 }
 
 bool EventPublisher::may_be_empty() const {
-    const bool has_range = config_.start_s() != 0 || config_.end_s() != 0;
-    const auto what = (config_.has_scene() ? config_.scene() : config_.recording()) +
-                      (has_range ? ": no event lies between start_s and end_s" : ": has no event");
+    const std::string what = source_name(config_) + ": has no event";
     if (config_.loop()) {
         health_.error(what + ", nothing to repeat");
         return false;

@@ -153,19 +153,16 @@ class BadInput(SystemTest):
         self.assertEqual(sensor.wait(10), 1)
         self.assertIn(f"{path}: byte 24: line 3: time 9223372036854775807 us", sensor.err())
 
-    def test_a_range_or_a_recording_without_events_is_told_and_a_loop_of_it_ends_as_a_fault(self):
-        recording, empty = data("car/car_atis_td.dat"), self.path("empty.csv")
+    def test_a_recording_without_events_is_told_and_a_loop_of_it_ends_as_a_fault(self):
+        empty = self.path("empty.csv")
         with open(empty, "w") as file:
             file.write("# geometry 4x4\n")
-        for source, fields, words in (
-                (recording, {"start_s": 50}, "no event lies between start_s and end_s"),
-                (empty, {}, "has no event")):
-            sensor = self.service("sensor", recording=source, **fields)
-            self.assertEqual(sensor.wait(10), 0)
-            self.assertIn(f"{source}: {words}", sensor.err())
-            sensor = self.service("sensor", recording=source, loop=True, **fields)
-            self.assertEqual(sensor.wait(10), 1)
-            self.assertIn(f"{source}: {words}, nothing to repeat", sensor.err())
+        sensor = self.service("sensor", recording=empty)
+        self.assertEqual(sensor.wait(10), 0)
+        self.assertIn(f"{empty}: has no event", sensor.err())
+        sensor = self.service("sensor", recording=empty, loop=True)
+        self.assertEqual(sensor.wait(10), 1)
+        self.assertIn(f"{empty}: has no event, nothing to repeat", sensor.err())
 
     def tracker_status(self):
         return json.loads(self.ctl("status", "--json"))["tracker"]
