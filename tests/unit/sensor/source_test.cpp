@@ -78,7 +78,8 @@ TEST(OpenSource, does_not_wait_for_the_writer_of_a_fifo_but_names_what_does) {
                   " is not a regular file; a FIFO or a device is heard with live");
     config.clear_recording();
     config.set_scene(fifo);
-    EXPECT_EQ(open_source(config).error().message, fifo + ": is not a regular file");
+    EXPECT_EQ(open_source(config).error().message,
+              "field scene: " + fifo + ": is not a regular file");
     config.set_scene(folder.path(""));
     EXPECT_THAT(open_source(config).error().message, HasSubstr("is a folder"));
 }
