@@ -94,7 +94,7 @@ class TrackerCalls(SystemTest):
         os.mkdir(path)
         tracker = self.start("pursuit-tracker", "--set", f"store={path}", ready=False)
         self.assertEqual(tracker.wait(10), 1)
-        self.assertIn(f"{path}: cannot be read", tracker.err())
+        self.assertIn(f"{path}: is no regular file", tracker.err())
         self.assertTrue(os.path.isdir(path))
 
     def test_sigterm_ends_it_within_two_seconds_with_the_store_written(self):
