@@ -10,8 +10,8 @@ inline constexpr std::int64_t max_t_us = std::int64_t{1} << 53;
 
 /// One brightness change at one pixel.
 struct Event {
-    std::int64_t
-        t_us;  ///< Sensor time, µs, 0 … 2^53-1; unwrapped and never decreasing after the decoder.
+    /// Sensor time, µs, 0 … 2^53-1; unwrapped and never decreasing after the decoder.
+    std::int64_t t_us;
     std::uint16_t x;        ///< Pixel, to the right, 0 … width-1.
     std::uint16_t y;        ///< Pixel, downwards, 0 … height-1.
     std::uint8_t polarity;  ///< 1 brighter (ON), 0 darker (OFF).

@@ -32,17 +32,22 @@ std::string line_of(std::string_view text, int index) {
 }
 
 /// Keeps the first error; line and column become 1-based, as editors count. The line itself is
-/// quoted, because Protobuf's message about a wrong type does not name the field.
+/// quoted where it may be, because Protobuf's message about a wrong type does not name the field.
 class FirstError : public google::protobuf::io::ErrorCollector {
  public:
-    FirstError(std::string name, std::string_view text) : name_(std::move(name)), text_(text) {}
+    FirstError(std::string name, std::string_view text, const Message& wanted, Quoting quoting)
+        : name_(std::move(name)),
+          text_(text),
+          wanted_(wanted.GetDescriptor()->name()),
+          quoting_(quoting) {}
 
     void AddError(int line, google::protobuf::io::ColumnNumber column,
                   const std::string& message) override {
-        if (message_.empty()) {
-            message_ = name_ + ":" + std::to_string(line + 1) + ":" + std::to_string(column + 1) +
-                       ": " + message + " in: " + line_of(text_, line);
-        }
+        if (!message_.empty()) return;
+        message_ =
+            name_ + ":" + std::to_string(line + 1) + ":" + std::to_string(column + 1) + ": " +
+            (quoting_ == Quoting::line ? message + " in: " + line_of(text_, line)
+                                       : "is no " + wanted_);  // Protobuf's message quotes as well.
     }
 
     const std::string& message() const { return message_; }
@@ -50,13 +55,15 @@ class FirstError : public google::protobuf::io::ErrorCollector {
  private:
     std::string name_;
     std::string_view text_;
+    std::string wanted_;
+    Quoting quoting_;
     std::string message_;
 };
 
 /// Reads what there is: fields may be missing, but none is given twice that is not repeated.
 Result<void> parse_partly(std::string_view text, const std::string& name, Message& message,
-                          TextFormat::ParseInfoTree& lines) {
-    FirstError errors(name, text);
+                          TextFormat::ParseInfoTree& lines, Quoting quoting = Quoting::line) {
+    FirstError errors(name, text, message, quoting);
     TextFormat::Parser parser;
     parser.RecordErrorsTo(&errors);
     parser.WriteLocationsTo(&lines);
@@ -87,9 +94,9 @@ Result<void> merge_text(std::string_view text, const std::string& name, Message&
 }
 
 Result<void> parse_text(std::string_view text, const std::string& name, Message& message,
-                        FieldPlaces* places) {
+                        FieldPlaces* places, Quoting quoting) {
     TextFormat::ParseInfoTree lines;
-    if (auto ok = parse_partly(text, name, message, lines); !ok) return ok;
+    if (auto ok = parse_partly(text, name, message, lines, quoting); !ok) return ok;
     if (const auto field = missing_field(message)) {
         FieldPlaces read;
         read.note(message, name, lines);
@@ -99,10 +106,11 @@ Result<void> parse_text(std::string_view text, const std::string& name, Message&
     return check_ranges(message, name, &lines);
 }
 
-Result<void> read_text_file(const std::string& path, Message& message, FieldPlaces* places) {
+Result<void> read_text_file(const std::string& path, Message& message, FieldPlaces* places,
+                            Quoting quoting) {
     const auto text = read_small_file(path, max_file_mib);
     if (!text) return tl::unexpected(text.error());
-    return parse_text(*text, path, message, places);
+    return parse_text(*text, path, message, places, quoting);
 }
 
 Result<void> write_text_file(const std::string& path, const Message& message) {

@@ -32,8 +32,8 @@ struct TrackOptions {
 Result<void> complete(TrackOptions& options) {
     auto& task = options.task;
     if (!task.config_path.empty()) {
-        if (auto ok = read_text_file(task.config_path, task.config, &options.places); !ok)
-            return ok;
+        auto ok = read_text_file(task.config_path, task.config, &options.places);
+        if (!ok) return ok;
     }
     if (auto ok = apply_settings(options.settings, task.config, &options.places); !ok) return ok;
     if (!options.preset.empty()) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "filters.pb.h"
-#include "services/sensor/filters/filter_file.hpp"
+#include "services/common/text_format.hpp"
 
 namespace pursuit::sensor {
 namespace {
@@ -35,7 +35,9 @@ class PixelMask final : public Filter {
 
 Result<std::unique_ptr<Filter>> make_pixel_mask(const FilterArguments& arguments, Geometry input) {
     disk::PixelMask file;
-    if (auto ok = read_filter_file(arguments.file(), file); !ok) return tl::unexpected(ok.error());
+    if (auto ok = read_text_file(arguments.file(), file, nullptr, Quoting::nothing); !ok) {
+        return tl::unexpected(ok.error());
+    }
     if (file.width() != input.width || file.height() != input.height) {
         return fail(arguments.file() + ": is for " + std::to_string(file.width()) + "x" +
                     std::to_string(file.height()) + " pixels, the events are of " +

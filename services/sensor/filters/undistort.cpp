@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "services/sensor/filters/filter_file.hpp"
+#include "services/common/text_format.hpp"
 #include "services/sensor/filters/lens.hpp"
 
 namespace pursuit::sensor {
@@ -43,7 +43,9 @@ class Undistort final : public Filter {
 
 Result<std::unique_ptr<Filter>> make_undistort(const FilterArguments& arguments, Geometry input) {
     disk::Calibration file;
-    if (auto ok = read_filter_file(arguments.file(), file); !ok) return tl::unexpected(ok.error());
+    if (auto ok = read_text_file(arguments.file(), file, nullptr, Quoting::nothing); !ok) {
+        return tl::unexpected(ok.error());
+    }
     if (file.width() != input.width || file.height() != input.height) {
         return fail(arguments.file() + ": is for " + std::to_string(file.width()) + "x" +
                     std::to_string(file.height()) + " pixels, the events are of " +

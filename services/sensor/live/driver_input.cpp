@@ -105,8 +105,9 @@ Result<std::unique_ptr<DriverInput>> DriverInput::load(const std::string& path,
     if (library == nullptr) return fail_field("driver", ": " + std::string(::dlerror()));
     const auto entry =
         reinterpret_cast<const pursuit_driver* (*)()>(::dlsym(library, "pursuit_driver_entry"));
-    if (entry == nullptr)
+    if (entry == nullptr) {
         return fail_field("driver", ": " + path + ": has no pursuit_driver_entry()");
+    }
     const auto* driver = entry();
     if (driver == nullptr || driver->version != PURSUIT_DRIVER_VERSION || driver->run == nullptr) {
         return fail_field("driver", ": " + path + ": is for version " +

@@ -25,8 +25,7 @@ Result<LiveAddress> parse_live_address(const std::string& text);
 /// or the peer closes; `stop` must outlive it.
 ///
 /// - TCP: waits for the resolver, then up to 2 s for the peer. Keepalive finds out within 8 s that
-/// its host is gone; a
-///   peer that is only silent is waited for.
+///   its host is gone; a peer that is only silent is waited for.
 /// - A FIFO is opened whether or not somebody writes; its stream ends with its last writer.
 /// - A terminal device is set to pass bytes through unchanged, at the speed that it has.
 /// - A regular file is refused: that is a recording.

@@ -150,8 +150,9 @@ Problem layer_problem(const disk::SceneLayer& layer, const std::string& where) {
 }
 
 Problem scene_problem(const disk::Scene& scene) {
-    if (!plain_name(scene.name()))
+    if (!plain_name(scene.name())) {
         return problem("name", ": must be letters, digits, _ and - only");
+    }
     std::set<std::string> names;
     for (int i = 0; i < scene.layer_size(); ++i) {
         const std::string where = "layer[" + std::to_string(i) + "]";

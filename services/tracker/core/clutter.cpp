@@ -24,7 +24,6 @@ constexpr double swamped_share = 0.25;
 constexpr double surfaced_share = 0.5;
 // A pixel. Where there is more, it is told whether it is steady.
 constexpr double weak_hz = 5;
-constexpr double least_seen = 40;  // events
 // Of contour, in half a second: a third of a px of way makes them. Fewer tell nothing, wherever
 // they are: some may be of a pixel that fires by itself.
 constexpr double few_per_px = 0.7;
@@ -85,7 +84,7 @@ void Clutter::restart() {
     fresh_count_ = 0;
     for_more_ = for_noise_ = 0;
     is_noise_alone_ = is_quiet_ = is_swamped_ = is_steady_ = false;
-    has_shown_more_ = is_told_weak_ = false;
+    has_shown_more_ = false;
     most_near_hz_ = seen_ = 0;
     usual_near_hz_ = 0;
     bin_events_ = bin_mean_ = bin_variance_ = bins_ = 0;
@@ -297,9 +296,8 @@ void Clutter::fold(std::int64_t t_us) {
     near_remembered_ = near_remembered_ * near_kept + (1 - near_kept);
     most_near_hz_ = 2 * weak_hz * near_px2;
     seen_ += new_near_ + new_far_[0] + new_far_[1];
-    if (seen_ >= least_seen) {
-        has_shown_more_ |= !seems_weak_noise(near_hz, clutter_hz);
-        is_told_weak_ = !has_shown_more_;
+    if (seen_ >= least_seen && !has_shown_more_) {
+        has_shown_more_ = !seems_weak_noise(near_hz, clutter_hz);
     }
     new_far_ = {};
     new_near_ = 0;

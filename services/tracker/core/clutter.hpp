@@ -77,7 +77,8 @@ class Clutter {
     /// little to tell how steady it is: no more on the contour than beside it, and on both sides
     /// alike.
     [[nodiscard]] bool can_be_weak_noise() const {
-        return is_told_weak_ && near_count_ * 1e6 < most_near_hz_ * near_time_us();
+        return seen_ >= least_seen && !has_shown_more_ &&
+               near_count_ * 1e6 < most_near_hz_ * near_time_us();
     }
 
     /// What is told for noise on the contour and beside it, Hz a px², if is_steady(): as much as is
@@ -105,6 +106,7 @@ class Clutter {
  private:
     static constexpr double floor = 0.002;
     static constexpr double near_window_events = 10;
+    static constexpr double least_seen = 40;  // events, before they can be told for weak noise
 
     /// Pieces of the contour, and what was counted at them; [side].
     struct Part {
@@ -183,14 +185,13 @@ class Clutter {
     double new_near_ = 0;
     double near_hz_ = 0;  // over half a second, or fewer where many come
     double near_remembered_ = 0;
-    bool has_shown_more_ = false;
-    bool is_told_weak_ = false;
-    double most_near_hz_ = 0;   // of it, for a moment
-    double seen_ = 0;           // events since the restart
-    double near_count_ = 0;     // the last ten or so on the contour, …
-    double near_began_us_ = 0;  // … and when they began
-    double slack_us_ = 0;       // time of them after which the density is told anew
-    std::int64_t due_us_ = 0;   // not before it is there anything to catch up with
+    bool has_shown_more_ = false;  // than weak noise makes, since the restart
+    double most_near_hz_ = 0;      // that weak noise makes, the last ten or so
+    double seen_ = 0;              // events since the restart
+    double near_count_ = 0;        // the last ten or so on the contour, …
+    double near_began_us_ = 0;     // … and when they began
+    double slack_us_ = 0;          // time of them after which the density is told anew
+    std::int64_t due_us_ = 0;      // not before it is there anything to catch up with
     std::int64_t t_us_ = 0;
     bool has_begun_ = false;  // with the first event
     std::int64_t folded_us_ = 0;

@@ -136,8 +136,9 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks, const Occlusion& 
         range.stretched = stretched_poses(chosen->contour(), checked_.pose);
     }
     if (going_) lead_on(gathered_.events(), t_us, *going_, geometry_);
-    if (!is_check_)
+    if (!is_check_) {
         chase_.begin(last_, t_us - static_cast<std::int64_t>(gathered_.mean_age_us(t_us)));
+    }
     map_.build(geometry_, gathered_.events());
     search_ = is_check_ ? ShapeSearch(chosen->contour(), chosen->outline())
                         : ShapeSearch(chosen->contour());

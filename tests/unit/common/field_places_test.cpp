@@ -10,16 +10,21 @@
 namespace pursuit {
 namespace {
 
-TEST(FieldPlaces, are_the_lines_of_fields_and_of_every_entry_of_repeated_ones) {
+/// Of what this text, called "t", gives a tracker's configuration.
+FieldPlaces read(const std::string& text) {
     disk::TrackerConfig config;
     FieldPlaces places;
-    ASSERT_TRUE(
-        parse_text("strategy: 'weighted'\n"
-                   "parameter { name: 'a'\n value: 1 }\n"
-                   "model: 'x'\n"
-                   "parameter { name: 'b' value: 1 } model: 'y'\n"
-                   "dds {\n domain: 7 }",
-                   "t", config, &places));
+    EXPECT_TRUE(parse_text(text, "t", config, &places));
+    return places;
+}
+
+TEST(FieldPlaces, are_the_lines_of_fields_and_of_every_entry_of_repeated_ones) {
+    const FieldPlaces places = read(
+        "strategy: 'weighted'\n"
+        "parameter { name: 'a'\n value: 1 }\n"
+        "model: 'x'\n"
+        "parameter { name: 'b' value: 1 } model: 'y'\n"
+        "dds {\n domain: 7 }");
     EXPECT_EQ(places.of("strategy"), "t:1");
     EXPECT_EQ(places.of("parameter[0]"), "t:2");
     EXPECT_EQ(places.of("parameter[0].value"), "t:3");
@@ -30,18 +35,14 @@ TEST(FieldPlaces, are_the_lines_of_fields_and_of_every_entry_of_repeated_ones) {
 }
 
 TEST(FieldPlaces, of_a_field_that_is_not_there_is_that_of_what_it_would_be_in) {
-    disk::TrackerConfig config;
-    FieldPlaces places;
-    ASSERT_TRUE(parse_text("\ndds { domain: 7 }", "t", config, &places));
+    const FieldPlaces places = read("\ndds { domain: 7 }");
     EXPECT_EQ(places.of("dds.initial_peer[3]"), "t:2");
     EXPECT_EQ(places.of("preset"), "");
     EXPECT_EQ(places.of(""), "");
 }
 
 TEST(FieldPlaces, of_the_entries_of_a_list_in_brackets_is_its_beginning) {
-    disk::TrackerConfig config;
-    FieldPlaces places;
-    ASSERT_TRUE(parse_text("name: 'a'\nmodel: ['x',\n'y']", "t", config, &places));
+    const FieldPlaces places = read("name: 'a'\nmodel: ['x',\n'y']");
     EXPECT_EQ(places.of("model[0]"), "t:2");
     EXPECT_EQ(places.of("model[1]"), "t:2");
 }

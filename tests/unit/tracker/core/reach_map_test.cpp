@@ -94,10 +94,16 @@ TEST(ReachMap, asks_an_object_everywhere_whose_reach_is_without_end) {
     EXPECT_TRUE(is_asked(map, 1, 303, 239));
 }
 
-TEST(ReachMap, of_many_objects_tells_of_each_place_in_a_cell_whether_one_reaches_it) {
+/// Of a hundred objects the fourth is placed.
+ReachMap crowded() {
     ReachMap map;
     map.restart(small_sensor, 100);
     map.place(3, {{100, 100}, 20});
+    return map;
+}
+
+TEST(ReachMap, of_many_objects_tells_of_each_place_in_a_cell_whether_one_reaches_it) {
+    const ReachMap map = crowded();
     // With what is left for its moves, 22 px.
     EXPECT_TRUE(map.reaches(3, 121, 100));
     EXPECT_FALSE(map.reaches(3, 123, 100));
@@ -107,18 +113,14 @@ TEST(ReachMap, of_many_objects_tells_of_each_place_in_a_cell_whether_one_reaches
 }
 
 TEST(ReachMap, of_many_objects_knows_at_once_how_one_has_moved) {
-    ReachMap map;
-    map.restart(small_sensor, 100);
-    map.place(3, {{100, 100}, 20});
+    ReachMap map = crowded();
     map.place(3, {{104, 100}, 20});
     EXPECT_TRUE(map.reaches(3, 125, 100));
     EXPECT_FALSE(map.reaches(3, 81, 100));
 }
 
 TEST(ReachMap, asks_an_object_that_may_be_elsewhere_in_all_of_its_cells) {
-    ReachMap map;
-    map.restart(small_sensor, 100);
-    map.place(3, {{100, 100}, 20});
+    ReachMap map = crowded();
     EXPECT_FALSE(map.reaches(3, 125, 120));
     map.place(3, {{100, 100}, 20, true});
     EXPECT_TRUE(map.reaches(3, 125, 120));
