@@ -34,6 +34,7 @@ class Grip {
         against_us_ = 0;
         sharp_ = counted_ = 0;
         looked_us_ = 0;
+        whole_us_ = never_us;
     }
     /// Another contour is held the same way.
     void hold(const Contour& contour) { cover_ = Cover(contour); }
@@ -76,6 +77,13 @@ class Grip {
                      const Velocity& velocity) {
         looked_us_ = t_us;
         cover_.close_window(outline, pose, velocity);
+        if (cover_.share() > nearly_all || whole_us_ == never_us) whole_us_ = t_us;
+    }
+    /// True once in a while as long as a part of the contour makes too few events, though it moves.
+    [[nodiscard]] bool is_patchy(std::int64_t t_us) {
+        if (whole_us_ == never_us || t_us - whole_us_ < patchy_us) return false;
+        whole_us_ = t_us;
+        return true;
     }
 
     [[nodiscard]] const Health& health() const { return health_; }
@@ -97,6 +105,10 @@ class Grip {
     static constexpr std::int64_t let_go_after_us = 60'000;
     static constexpr std::int64_t longest_step_us = 20'000;
     static constexpr std::int64_t look_every_us = 2'000;
+    // Of a pose that is right and turns fast the cover falls below it for up to 50 ms.
+    static constexpr double nearly_all = 0.8;
+    static constexpr std::int64_t patchy_us = 100'000;
+    static constexpr std::int64_t never_us = -1;
 
     Health health_;
     Cover cover_;
@@ -105,6 +117,7 @@ class Grip {
     std::int64_t against_us_ = 0;
     std::int64_t weighed_us_ = 0;
     std::int64_t looked_us_ = 0;
+    std::int64_t whole_us_ = never_us;  // the last look that found nearly all of it
 };
 
 }  // namespace pursuit::tracker

@@ -173,6 +173,12 @@ void Track::listen(std::int64_t t_us) {
     begin_doubt(t_us, found_confirmations, t_us, before);
 }
 
+// Stretched along its own lines, a shape goes on to fit in part, and its ends make no events.
+void Track::doubt_stretch(std::int64_t t_us) {
+    if (!may_stretch() || !grip_.is_patchy(t_us)) return;
+    if (!doubt_.is_open() && !is_partly_hidden()) begin_doubt(t_us, found_confirmations, 0);
+}
+
 Pose Track::pose() const {
     if (is_covered_) return hidden_way_.last().pose;
     return is_acquiring_ ? acquisition_->pose() : estimator_->pose();
@@ -196,6 +202,7 @@ void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
         }
         if (grip_.is_due_to_look(t_us)) {
             grip_.look_around(t_us, outline_, estimator_->pose(), estimator_->velocity());
+            doubt_stretch(t_us);
         }
         estimator_->look_about(t_us, pixels);
     }

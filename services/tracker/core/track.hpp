@@ -176,6 +176,7 @@ class Track {
                      const std::optional<Coast>& before = std::nullopt);
     /// Whether the object has fallen silent.
     void listen(std::int64_t t_us);
+    void doubt_stretch(std::int64_t t_us);
     /// Of its contour, in the mean.
     [[nodiscard]] double speed_px_s() const;
     /// What the events counted since the last time, until t_us, say about the pose.

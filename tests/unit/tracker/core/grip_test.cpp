@@ -52,6 +52,37 @@ TEST(Grip, looks_where_events_come_from_when_enough_came_and_every_2_ms_at_most)
     EXPECT_TRUE(grip.is_due_to_look(12'000));
 }
 
+TEST(Grip, is_patchy_where_too_little_of_the_contour_made_events_for_a_tenth_of_a_second) {
+    const Contour contour(test::arrow());
+    const Outline outline(contour);
+    Grip grip(contour);
+    const Velocity right{1000, 0, 0, 0, 0};
+    int times = 0;
+    for (std::int64_t t_us = 10'000; t_us < 360'000; t_us += 5'000) {
+        for (int i = 0; i < 100; ++i) grip.count_place(0);
+        grip.look_around(t_us, outline, {}, right);
+        times += grip.is_patchy(t_us) ? 1 : 0;
+    }
+    EXPECT_EQ(times, 3);
+}
+
+TEST(Grip, is_not_patchy_where_all_of_the_contour_makes_events) {
+    const Contour contour(test::arrow());
+    const Outline outline(contour);
+    Grip grip(contour);
+    const auto& pieces = contour.pieces().pieces();
+    for (std::int64_t t_us = 10'000; t_us < 360'000; t_us += 5'000) {
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            const double across_px = std::abs(pieces[i].by - pieces[i].ay);
+            for (int k = 0; k < std::lround(3 * across_px); ++k) {
+                grip.count_place(static_cast<std::int32_t>(i));
+            }
+        }
+        grip.look_around(t_us, outline, {}, {1000, 0, 0, 0, 0});
+        EXPECT_FALSE(grip.is_patchy(t_us)) << t_us;
+    }
+}
+
 TEST(Grip, is_not_lost_while_the_object_is_seen_among_noise) {
     Grip grip{Contour(test::arrow())};
     hold_grip(grip, 0, 200'000, 1);
