@@ -72,6 +72,8 @@ class Estimator {
     /// The event that was asked for last lies on another object's contour.
     virtual void disown(const Event& event) { static_cast<void>(event); }
 
+    /// Farther than this from the contour no event is the object's, px.
+    [[nodiscard]] virtual double gate_px() const = 0;
     /// How far from the pose's place an event until t_us can be and concern the object, px.
     [[nodiscard]] virtual double reach_px(std::int64_t t_us) const = 0;
     /// Whether a few events may move the pose by more than ReachMap has room for.

@@ -25,6 +25,7 @@ class GradientEstimator : public Estimator {
     const Approach* approach(const Event& event, const PixelPast& past) override;
     [[nodiscard]] double likelihood() const override;
     bool take(double weight) override;
+    [[nodiscard]] double gate_px() const override { return parameters_.gate_px; }
     [[nodiscard]] double reach_px(std::int64_t t_us) const override;
     [[nodiscard]] bool leaps() const override;
     [[nodiscard]] const Pose& pose() const override { return pose_; }

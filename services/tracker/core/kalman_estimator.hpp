@@ -49,6 +49,9 @@ class KalmanEstimator : public Estimator {
         return measured_.told.likelihood() * measured_.of_polarity;
     }
     bool take(double weight) override;
+    [[nodiscard]] double gate_px() const override {
+        return std::min(parameters_.gate_px, Clutter::far_to_px);
+    }
     [[nodiscard]] double reach_px(std::int64_t t_us) const override;
     [[nodiscard]] bool is_sudden() const override {
         return watch_.is_on() || clutter_.noise_hz() > NoiseWatch::strong_hz / 2;

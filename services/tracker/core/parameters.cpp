@@ -17,8 +17,10 @@ constexpr Parameter<ObjectParameters> part_of_kalman(std::string_view name,
 }
 
 constexpr std::array object_table{
-    Parameter<ObjectParameters>{"gate_px", &ObjectParameters::gate_px, 0.5, 50, "px",
-                                "events farther from the model than this are not the object's"},
+    Parameter<ObjectParameters>{
+        "gate_px", &ObjectParameters::gate_px, 0.5, 50, "px",
+        "events farther from the model than this are not the object's; of the "
+        "estimator kalman 6.5 px at most"},
     Parameter<ObjectParameters>{
         "let_go_sharpness", &ObjectParameters::let_go_sharpness, 0, 1, "1",
         "the object is let go where fewer of its events than this share lie "

@@ -252,7 +252,7 @@ const Approach* Track::approach(const Event& event, const PixelPast& past) {
 
 void Track::find_what_to_watch() {
     leaps_ = estimator_->leaps();
-    sharp2_px2_ = parameters_.gate_px * parameters_.gate_px / 16;
+    sharp2_px2_ = estimator_->gate_px() * estimator_->gate_px() / 16;
     // Where another covers it in part, what comes from inside may be the other's.
     watches_inside_ =
         vanishing_.can_tell() && !is_partly_hidden() && parameters_.let_go_sharpness > 0;

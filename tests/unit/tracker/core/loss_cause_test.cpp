@@ -95,5 +95,33 @@ TEST(LossCause, of_an_estimator_that_ran_off_is_told_and_no_pose_out_of_bounds_i
     }
 }
 
+// Lines 9 px apart go over the place where there never was an object.
+TEST(LossCause, is_told_of_an_object_that_is_not_there_however_wide_its_gate) {
+    for (const double gate_px : {4.0, 6.5, 20.0, 50.0}) {
+        Tracker tracker = Tracker::create({}).value();
+        tracker.begin_stream(small_sensor, 1);
+        Registration registration;
+        registration.shape = test::square();
+        registration.estimator = EstimatorKind::kalman;
+        registration.start.pose = pose_of(100, 120, 0);
+        registration.parameters = {{"gate_px", gate_px}};
+        tracker.register_object(registration).value();
+        std::mt19937 random(1);
+        std::vector<Event> events;
+        for (std::int64_t t_us = 0; t_us < 1'000'000; t_us += 10) {
+            const double x = 40 + 9.0 * static_cast<double>(random() % 14) +
+                             std::fmod(1e-4 * static_cast<double>(t_us), 9);
+            events.push_back({t_us, static_cast<std::uint16_t>(std::lround(x)),
+                              static_cast<std::uint16_t>(60 + random() % 120), 1});
+        }
+        Poses poses;
+        tracker.process(events, poses);
+        int confident = 0;
+        for (const auto& row : poses.rows) confident += row.record.confidence > 0.5F ? 1 : 0;
+        EXPECT_LE(confident, 10) << gate_px;
+        EXPECT_EQ(poses.rows.back().record.state, TrackState::lost) << gate_px;
+    }
+}
+
 }  // namespace
 }  // namespace pursuit::tracker
