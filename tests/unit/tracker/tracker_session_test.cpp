@@ -6,6 +6,8 @@
 
 #include <limits>
 
+#include "services/sensor/packed_event.hpp"
+#include "services/tracker/tracker_wire.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
 
 namespace pursuit::tracker {
@@ -14,18 +16,50 @@ namespace {
 /// A session over what a former run left, and what it said of that.
 struct Restarted {
     explicit Restarted(const StoredState& stored)
-        : session(
-              Tracker::create({}).value(), {}, stored, {}, clock,
-              {[](v1::ObjectPose&) { return true; }, [](v1::PoseTrack&) { return true; },
-               [](v1::RegisteredModel&) { return true; }, [](v1::TrackerSettings&) { return true; },
-               [](const SessionFigures&) { return v1::TrackerStatus(); },
-               [this](const std::string& message) { errors.push_back(message); },
-               [](const PoseRecord&) {}}) {}
+        : session(Tracker::create({}).value(), {}, stored, {}, clock,
+                  {[this](v1::ObjectPose&) { return takes; }, [](v1::PoseTrack&) { return true; },
+                   [this](v1::RegisteredModel&) { return takes; },
+                   [this](v1::TrackerSettings&) { return takes; },
+                   [](const SessionFigures&) { return v1::TrackerStatus(); },
+                   [this](const std::string& message) { errors.push_back(message); },
+                   [](const PoseRecord&) {}}) {}
 
     ManualClock clock;
     std::vector<std::string> errors;
+    bool takes = true;  ///< Whether the middleware takes what is written.
     TrackerSession session;
 };
+
+/// The packet of that number of stream 8, empty, of an image 240 px high.
+v1::EventPacket packet_at(std::uint64_t number, std::int64_t base_time_us,
+                          std::uint16_t width_px = 304) {
+    v1::EventPacket packet;
+    packet.sensor_id(1);
+    packet.stream_id(8);
+    packet.sequence_number(number);
+    packet.base_time_us(base_time_us);
+    packet.width(width_px);
+    packet.height(240);
+    return packet;
+}
+
+v1::TrackerRequest to_set_the_pose_of_the_arrow(std::int64_t apply_at_us) {
+    v1::SetPose set;
+    set.name("arrow");
+    set.pose(start_pose({.search = false, .pose = pose_of(60, 60, 1), .velocity = {}}));
+    v1::TrackerRequest request;
+    request.apply_at_us(apply_at_us);
+    request.call().set_pose(set);
+    return request;
+}
+
+v1::TrackerRequest to_remove_the_arrow() {
+    v1::ModelName model;
+    model.name("arrow");
+    v1::TrackerRequest request;
+    request.call().remove_model(model);
+    return request;
+}
 
 StoredState tracked_at(const Pose& pose) {
     StoredState stored;
@@ -62,12 +96,7 @@ TEST(TrackerSession, has_nothing_new_to_store_before_the_first_packet) {
     Restarted restarted(stored);
     EXPECT_EQ(restarted.session.stored_moment(), stored.moment);
     EXPECT_EQ(restarted.session.stored_state().moment, stored.moment);
-    v1::EventPacket packet;
-    packet.sensor_id(1);
-    packet.stream_id(8);
-    packet.base_time_us(500);
-    packet.width(304);
-    packet.height(240);
+    auto packet = packet_at(0, 500);
     restarted.session.take(packet);
     EXPECT_EQ(restarted.session.stored_moment(), (StoredMoment{8, 500}));
 }
@@ -82,6 +111,69 @@ TEST(TrackerSession, begins_where_an_object_was_registered_where_its_last_pose_i
     ASSERT_EQ(now.objects.size(), 1U);
     EXPECT_EQ(now.objects[0].object.object_id, 1U);
     EXPECT_EQ(now.objects[0].object.start.pose.t_px, Eigen::Vector2d(50, 60));
+}
+
+TEST(TrackerSession, counts_the_events_in_packets_of_another_geometry) {
+    Restarted restarted(tracked_at(pose_of(100, 90, 1)));
+    auto first = packet_at(0, 500);
+    restarted.session.take(first);
+    auto wider = packet_at(1, 600, 640);
+    wider.words({1, 2, 3});
+    restarted.session.take(wider);
+    const auto figures = restarted.session.figures();
+    EXPECT_EQ(figures.dropped_bad_geometry, 3U);
+    EXPECT_EQ(figures.stream.bad_geometry, 1U);
+    EXPECT_EQ(figures.tracker.events_in, 0U);
+}
+
+TEST(TrackerSession, counts_and_tells_of_a_call_that_is_refused_after_it_waited) {
+    Restarted restarted(tracked_at(pose_of(100, 90, 1)));
+    auto first = packet_at(0, 500);
+    restarted.session.take(first);
+    auto set_pose = to_set_the_pose_of_the_arrow(2000);
+    EXPECT_EQ(restarted.session.answer(set_pose).outcome().code(), v1::STATUS_OK);
+    auto remove = to_remove_the_arrow();
+    EXPECT_EQ(restarted.session.answer(remove).outcome().code(), v1::STATUS_OK);
+    EXPECT_EQ(restarted.session.figures().late_refusals, 0U);
+    auto second = packet_at(1, 3000);
+    restarted.session.take(second);
+    const auto figures = restarted.session.figures();
+    EXPECT_EQ(figures.late_refusals, 1U);
+    EXPECT_EQ(figures.calls_waiting, 0U);
+    // It was accepted: its sender has that answer.
+    EXPECT_EQ(figures.requests, 2U);
+    EXPECT_EQ(figures.requests_refused, 0U);
+    ASSERT_EQ(restarted.errors.size(), 1U);
+    EXPECT_THAT(restarted.errors[0], testing::HasSubstr("arrow"));
+}
+
+TEST(TrackerSession, counts_a_call_that_is_refused_at_once_as_no_late_one) {
+    Restarted restarted(tracked_at(pose_of(100, 90, 1)));
+    auto remove = to_remove_the_arrow();
+    EXPECT_EQ(restarted.session.answer(remove).outcome().code(), v1::STATUS_OK);
+    EXPECT_EQ(restarted.session.answer(remove).outcome().code(), v1::STATUS_NOT_FOUND);
+    const auto figures = restarted.session.figures();
+    EXPECT_EQ(figures.requests, 2U);
+    EXPECT_EQ(figures.requests_refused, 1U);
+    EXPECT_EQ(figures.late_refusals, 0U);
+}
+
+TEST(TrackerSession, counts_models_and_poses_that_could_not_be_written_together) {
+    Restarted restarted(tracked_at(pose_of(100, 90, 1)));
+    EXPECT_EQ(restarted.session.figures().write_failures, 0U);
+    auto first = packet_at(0, 0);
+    first.words({sensor::pack({0, 1, 1, 1}, 0)});
+    restarted.session.take(first);
+    const auto poses_before = restarted.session.figures().poses_out;
+    restarted.takes = false;
+    auto second = packet_at(1, 10'000);
+    restarted.session.take(second);
+    const auto poses_failed = restarted.session.figures().write_failures;
+    EXPECT_GT(poses_failed, 0U);
+    EXPECT_EQ(restarted.session.figures().poses_out, poses_before);
+    auto remove = to_remove_the_arrow();
+    EXPECT_EQ(restarted.session.answer(remove).outcome().code(), v1::STATUS_OK);
+    EXPECT_EQ(restarted.session.figures().write_failures, poses_failed + 1);
 }
 
 }  // namespace

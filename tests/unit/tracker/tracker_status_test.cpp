@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 namespace pursuit::tracker {
 namespace {
@@ -41,6 +43,99 @@ TEST(TrackerStatus, says_how_often_objects_were_lost_and_why_apart_from_what_was
     EXPECT_EQ(named->count(), 3U);
     EXPECT_EQ(status.events_dropped(), 0U);
     EXPECT_LE(status.dropped_by().size(), 32U);
+}
+
+// Every figure is another power of 2: a sum tells what is in it.
+TEST(TrackerStatus, tells_each_cause_by_its_name_and_sums_up_those_of_events_alone) {
+    ManualClock clock;
+    SessionFigures figures;
+    figures.tracker.events_in = 1 << 0;
+    figures.dropped_bad_geometry = 1 << 1;
+    figures.tracker.dropped_outside_geometry = 1 << 2;
+    figures.tracker.dropped_time_went_back = 1 << 3;
+    figures.tracker.dropped_time_out_of_range = 1 << 4;
+    figures.stream.old = 1 << 5;
+    figures.stream.of_another_stream = 1 << 6;
+    figures.stream.bad_geometry = 1 << 7;
+    figures.late_refusals = 1 << 8;
+    figures.write_failures = 1 << 9;
+    IntakeCounters intake;
+    intake.dropped_events = 1 << 10;
+    intake.dropped_packets = 1 << 11;
+    intake.of_another_sensor = 1 << 12;
+    intake.refused_requests = 1 << 13;
+    for (std::size_t i = 1; i < loss_causes; ++i) figures.tracker.lost_by[i] = 1U << (13 + i);
+    const auto status = tracker_status({}, figures, {}, intake, clock);
+    std::map<std::string, std::uint64_t> told;
+    for (const auto& cause : status.dropped_by()) told[cause.name().to_string()] = cause.count();
+    const std::map<std::string, std::uint64_t> expected{
+        {"other_geometry", 1 << 1},
+        {"outside_geometry", 1 << 2},
+        {"time_went_back", 1 << 3},
+        {"time_out_of_range", 1 << 4},
+        {"packets.old", 1 << 5},
+        {"packets.other_stream", 1 << 6},
+        {"packets.other_geometry", 1 << 7},
+        {"requests.refused_at_their_time", 1 << 8},
+        {"writes.failed", 1 << 9},
+        {"queue_full", 1 << 10},
+        {"packets.queue_full", 1 << 11},
+        {"packets.other_sensor", 1 << 12},
+        {"requests.queue_full", 1 << 13},
+        {"objects.lost.does_not_fit", 1 << 14},
+        {"objects.lost.gone", 1 << 15},
+        {"objects.lost.in_noise", 1 << 16},
+        {"objects.lost.not_seen_again", 1 << 17},
+        {"objects.lost.out_of_bounds", 1 << 18},
+    };
+    EXPECT_EQ(told, expected);
+    EXPECT_EQ(status.dropped_by().size(), expected.size());
+    EXPECT_EQ(status.events_dropped(), 1U << 1 | 1U << 2 | 1U << 3 | 1U << 4 | 1U << 10);
+    // What never came to the tracker came in all the same.
+    EXPECT_EQ(status.events_in(), 1U << 0 | 1U << 1 | 1U << 10);
+}
+
+TEST(TrackerStatus, tells_every_other_figure_as_it_is) {
+    ManualClock clock;
+    SessionFigures figures;
+    figures.stream_id = 1;
+    figures.last_t_us = 2;
+    figures.tracker.events_used = 3;
+    figures.stream.packets = 4;
+    figures.stream.gaps = 5;
+    figures.stream.packets_missed = 6;
+    figures.requests = 20;
+    figures.requests_refused = 30;
+    figures.poses_out = 7;
+    figures.tracker.poses_thinned = 8;
+    figures.objects = 9;
+    figures.objects_tracking = 10;
+    figures.objects_lost = 11;
+    figures.busy_fraction = 0.5;
+    figures.latency.p99_us(12);
+    IntakeCounters intake;
+    intake.refused_requests = 400;
+    const auto status = tracker_status({"left", 13}, figures, {14, 15, 16}, intake, clock);
+    EXPECT_EQ(status.instance().to_string(), "left");
+    EXPECT_EQ(status.sensor_id(), 13U);
+    EXPECT_EQ(status.stream_id(), 1U);
+    EXPECT_EQ(status.last_t_us(), 2);
+    EXPECT_EQ(status.events_used(), 3U);
+    EXPECT_EQ(status.packets_in(), 4U);
+    EXPECT_EQ(status.gaps(), 5U);
+    EXPECT_EQ(status.packets_missed(), 6U);
+    EXPECT_EQ(status.requests(), 420U);
+    EXPECT_EQ(status.requests_refused(), 430U);
+    EXPECT_EQ(status.poses_out(), 7U);
+    EXPECT_EQ(status.poses_thinned(), 8U);
+    EXPECT_EQ(status.objects(), 9U);
+    EXPECT_EQ(status.objects_tracking(), 10U);
+    EXPECT_EQ(status.objects_lost(), 11U);
+    EXPECT_EQ(status.busy_fraction(), 0.5);
+    EXPECT_EQ(status.latency().p99_us(), 12);
+    EXPECT_EQ(status.queue_packets(), 14U);
+    EXPECT_EQ(status.queue_packets_max(), 15U);
+    EXPECT_EQ(status.queue_capacity(), 16U);
 }
 
 TEST(TrackerStatus, of_an_open_stream_without_packets_for_100_ms_is_a_fault) {
