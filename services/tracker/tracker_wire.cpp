@@ -8,6 +8,29 @@ namespace {
 
 constexpr std::size_t max_values = 32;  // NamedValue sequences, idl/models.idl
 
+template <class Kind, class WireKind>
+constexpr bool is_same(Kind kind, WireKind wire) {
+    return static_cast<std::uint32_t>(kind) == static_cast<std::uint32_t>(wire);
+}
+// Here and in pursuitctl kinds go to the wire and come from it by their numbers.
+static_assert(is_same(TransformKind::isometry, v1::TRANSFORM_ISOMETRY));
+static_assert(is_same(TransformKind::similarity, v1::TRANSFORM_SIMILARITY));
+static_assert(is_same(TransformKind::paper_affine, v1::TRANSFORM_PAPER_AFFINE));
+static_assert(is_same(TransformKind::full_affine, v1::TRANSFORM_FULL_AFFINE));
+static_assert(is_same(EstimatorKind::gradient, v1::ESTIMATOR_GRADIENT));
+static_assert(is_same(EstimatorKind::kalman, v1::ESTIMATOR_KALMAN));
+static_assert(is_same(StrategyKind::closest, v1::STRATEGY_CLOSEST));
+static_assert(is_same(StrategyKind::reject_all, v1::STRATEGY_REJECT_ALL));
+static_assert(is_same(StrategyKind::update_all, v1::STRATEGY_UPDATE_ALL));
+static_assert(is_same(StrategyKind::weighted, v1::STRATEGY_WEIGHTED));
+static_assert(is_same(StrategyKind::temporal, v1::STRATEGY_TEMPORAL));
+static_assert(is_same(StrategyKind::spatiotemporal, v1::STRATEGY_SPATIOTEMPORAL));
+static_assert(is_same(StrategyKind::probabilistic, v1::STRATEGY_PROBABILISTIC));
+static_assert(is_same(TrackState::searching, v1::TRACK_SEARCHING));
+static_assert(is_same(TrackState::tracking, v1::TRACK_TRACKING));
+static_assert(is_same(TrackState::occluded, v1::TRACK_OCCLUDED));
+static_assert(is_same(TrackState::lost, v1::TRACK_LOST));
+
 /// An enum from the wire; any 32-bit number may have come.
 template <class Kind, class WireKind>
 CallResult<Kind> kind_of(WireKind wire, WireKind last, const char* field) {
