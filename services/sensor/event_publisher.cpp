@@ -5,8 +5,10 @@
 
 #include <chrono>
 #include <sstream>
+#include <utility>
 #include <vector>
 
+#include "services/common/topics.hpp"
 #include "services/sensor/source.hpp"
 
 namespace pursuit::sensor {
@@ -27,17 +29,15 @@ std::string range_text(const disk::SensorConfig& config) {
 
 }  // namespace
 
-EventPublisher::EventPublisher(const disk::SensorConfig& config, Writer<v1::EventPacket>& events,
-                               Writer<v1::EventPacket>& exposures, Pacer& pacer, Clock& clock,
-                               Health& health, FilterSwitch& filters,
+EventPublisher::EventPublisher(const disk::SensorConfig& config, StreamOutputs outputs,
+                               Pacer& pacer, Clock& clock, FilterSwitch& filters,
                                std::unique_ptr<EventReader> source)
     : config_(config),
-      events_(events),
+      outputs_(std::move(outputs)),
       pacer_(pacer),
-      health_(health),
       filters_(filters),
       source_(std::move(source)),
-      sender_(config, events, exposures, pacer, clock, health, filters, counts_,
+      sender_(config, outputs_, pacer, clock, filters, counts_,
               [&pacer](std::int64_t t_us) { return pacer.host_time_ns(t_us); }) {}
 
 void EventPublisher::start() {
@@ -75,7 +75,7 @@ void EventPublisher::run() {
         if (!config_.loop()) break;
         auto next = open_source(config_);
         if (!next) {
-            health_.error(next.error().message);
+            outputs_.error(next.error().message);
             state_ = State::failed;
             return;
         }
@@ -88,7 +88,7 @@ void EventPublisher::run() {
 bool EventPublisher::may_be_empty() const {
     const std::string what = source_name(config_) + ": has no event";
     if (config_.loop()) {
-        health_.error(what + ", nothing to repeat");
+        outputs_.error(what + ", nothing to repeat");
         return false;
     }
     spdlog::warn("{}", what);
@@ -103,7 +103,7 @@ std::string EventPublisher::remark() const {
 
 bool EventPublisher::wait_for_subscribers() {
     const int wanted = static_cast<int>(config_.wait_for_subscribers());
-    while (events_.matched() < wanted) {
+    while (outputs_.events.readers() < wanted) {
         if (stopping_) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
@@ -112,7 +112,7 @@ bool EventPublisher::wait_for_subscribers() {
 
 bool EventPublisher::send_stream(EventReader& source, bool& source_failed) {
     if (auto ok = sender_.begin(source.geometry()); !ok) {
-        health_.error(ok.error().message);
+        outputs_.error(ok.error().message);
         source_failed = true;
         return true;
     }
@@ -123,12 +123,12 @@ bool EventPublisher::send_stream(EventReader& source, bool& source_failed) {
     while (!stopping_) {
         const auto batch = source.read(events, exposures);
         if (!batch) {
-            health_.error(batch.error().message);
+            outputs_.error(batch.error().message);
             source_failed = true;
         }
         if (batch && batch->events + batch->exposures > 0) owes_events = false;
         if (batch && batch->at_end && owes_events) {
-            health_.error(source_name(config_) + ": no event lies within " + range_text(config_));
+            outputs_.error(source_name(config_) + ": no event lies within " + range_text(config_));
             source_failed = true;
         }
         if (!batch || batch->at_end) return true;

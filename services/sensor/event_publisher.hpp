@@ -18,9 +18,8 @@ namespace pursuit::sensor {
 class EventPublisher final : public Publisher {
  public:
     /// `source` is the first pass; a loop opens the next itself.
-    EventPublisher(const disk::SensorConfig& config, Writer<v1::EventPacket>& events,
-                   Writer<v1::EventPacket>& exposures, Pacer& pacer, Clock& clock, Health& health,
-                   FilterSwitch& filters, std::unique_ptr<EventReader> source);
+    EventPublisher(const disk::SensorConfig& config, StreamOutputs outputs, Pacer& pacer,
+                   Clock& clock, FilterSwitch& filters, std::unique_ptr<EventReader> source);
     ~EventPublisher() override { stop(); }
     EventPublisher(const EventPublisher&) = delete;
     EventPublisher& operator=(const EventPublisher&) = delete;
@@ -39,9 +38,8 @@ class EventPublisher final : public Publisher {
     bool send_stream(EventReader& source, bool& source_failed);
 
     const disk::SensorConfig& config_;
-    Writer<v1::EventPacket>& events_;
+    const StreamOutputs outputs_;
     Pacer& pacer_;
-    Health& health_;
     FilterSwitch& filters_;
     std::unique_ptr<EventReader> source_;
     StreamSender sender_;

@@ -4,7 +4,9 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <utility>
 
+#include "services/common/topics.hpp"
 #include "services/sensor/source.hpp"
 
 namespace pursuit::sensor {
@@ -15,18 +17,15 @@ constexpr std::int64_t noteworthy_silence_ns = 1'000'000'000;
 
 }  // namespace
 
-LivePublisher::LivePublisher(const disk::SensorConfig& config, Writer<v1::EventPacket>& events,
-                             Writer<v1::EventPacket>& exposures, Pacer& pacer, Clock& clock,
-                             Health& health, FilterSwitch& filters,
-                             std::unique_ptr<LiveInput> input)
+LivePublisher::LivePublisher(const disk::SensorConfig& config, StreamOutputs outputs, Pacer& pacer,
+                             Clock& clock, FilterSwitch& filters, std::unique_ptr<LiveInput> input)
     : config_(config),
-      events_(events),
+      outputs_(std::move(outputs)),
       pacer_(pacer),
       clock_(clock),
-      health_(health),
       sink_(config.live_buffer_events(), clock),
       input_(std::move(input)),
-      sender_(config, events, exposures, pacer, clock, health, filters, counts_,
+      sender_(config, outputs_, pacer, clock, filters, counts_,
               [this](std::int64_t t_us) { return tie_ns_ + (t_us - tie_us_) * 1000; }) {
     sender_.await_readers(false);
     sink_.waits_for(subscribers_wanted() > 0 ? std::to_string(subscribers_wanted()) +
@@ -84,7 +83,7 @@ bool LivePublisher::send(LiveItem& item) {
             tie_us_ = 0;
             tie_ns_ = clock_.realtime_ns();
             if (auto ok = sender_.begin(item.geometry); !ok) {
-                health_.error(ok.error().message);
+                outputs_.error(ok.error().message);
                 return true;
             }
             spdlog::info("a stream of {}x{} pixels begins", item.geometry.width,
@@ -103,7 +102,7 @@ bool LivePublisher::send(LiveItem& item) {
             return sender_.send(item.events, item.exposures, item.reached_us);
         case LiveItem::Kind::end:
             fault_ = item.fault;
-            if (!fault_.empty()) health_.error(fault_);
+            if (!fault_.empty()) outputs_.error(fault_);
             state_ = State::waiting;
             sender_.end();
             return true;
@@ -112,7 +111,7 @@ bool LivePublisher::send(LiveItem& item) {
 }
 
 bool LivePublisher::wait_for_subscribers() {
-    while (events_.matched() < subscribers_wanted() && !stop_.raised()) {
+    while (outputs_.events.readers() < subscribers_wanted() && !stop_.raised()) {
         stop_.wait(-1, 0, std::chrono::milliseconds(5));
     }
     return !stop_.raised();

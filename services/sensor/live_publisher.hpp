@@ -23,9 +23,8 @@ namespace pursuit::sensor {
 /// slower than the sensor misses packets, and sees it by their numbers.
 class LivePublisher final : public Publisher {
  public:
-    LivePublisher(const disk::SensorConfig& config, Writer<v1::EventPacket>& events,
-                  Writer<v1::EventPacket>& exposures, Pacer& pacer, Clock& clock, Health& health,
-                  FilterSwitch& filters, std::unique_ptr<LiveInput> input);
+    LivePublisher(const disk::SensorConfig& config, StreamOutputs outputs, Pacer& pacer,
+                  Clock& clock, FilterSwitch& filters, std::unique_ptr<LiveInput> input);
     ~LivePublisher() override { stop(); }
     LivePublisher(const LivePublisher&) = delete;
     LivePublisher& operator=(const LivePublisher&) = delete;
@@ -46,10 +45,9 @@ class LivePublisher final : public Publisher {
     int subscribers_wanted() const { return static_cast<int>(config_.wait_for_subscribers()); }
 
     const disk::SensorConfig& config_;
-    Writer<v1::EventPacket>& events_;
+    const StreamOutputs outputs_;
     Pacer& pacer_;
     Clock& clock_;
-    Health& health_;
     LiveSink sink_;
     std::unique_ptr<LiveInput> input_;
     StopSignal stop_;

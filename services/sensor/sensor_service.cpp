@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/sensor/sensor_service.hpp"
 
+#include <chrono>
 #include <cmath>
 
 #include "services/sensor/event_publisher.hpp"
@@ -18,6 +19,17 @@ constexpr double fastest_rate = 1000;
 /// An error of a chain of filters, which begins with its field.
 tl::unexpected<Error> of_field(const Error& error) {
     return tl::unexpected<Error>(Error{"field " + error.message, error.field});
+}
+
+PacketOutput output_of(Writer<v1::EventPacket>& writer) {
+    return {[&writer](v1::EventPacket& packet) { return writer.write(packet); },
+            [&writer](std::chrono::milliseconds at_most) {
+                const auto whole = std::chrono::duration_cast<std::chrono::seconds>(at_most);
+                const std::chrono::nanoseconds rest = at_most - whole;
+                return writer.wait_acknowledged({static_cast<std::int32_t>(whole.count()),
+                                                 static_cast<std::uint32_t>(rest.count())});
+            },
+            [&writer] { return writer.matched(); }};
 }
 
 void refuse(v1::SensorReply& reply, v1::StatusCode code, const std::string& message) {
@@ -78,12 +90,14 @@ Result<void> SensorService::start() {
     auto status = Writer<v1::SensorStatus>::create(*participant_, topic::sensor_status);
     if (!status) return tl::unexpected(status.error());
     status_ = std::move(*status);
+    StreamOutputs outputs{output_of(*events_), output_of(*exposures_),
+                          [this](const std::string& message) { health_.error(message); }};
     if (is_live_) {
-        publisher_ = std::make_unique<LivePublisher>(config_, *events_, *exposures_, pacer_, clock_,
-                                                     health_, *filters_, std::move(live_));
+        publisher_ = std::make_unique<LivePublisher>(config_, std::move(outputs), pacer_, clock_,
+                                                     *filters_, std::move(live_));
     } else {
-        publisher_ = std::make_unique<EventPublisher>(
-            config_, *events_, *exposures_, pacer_, clock_, health_, *filters_, std::move(source_));
+        publisher_ = std::make_unique<EventPublisher>(config_, std::move(outputs), pacer_, clock_,
+                                                      *filters_, std::move(source_));
     }
     auto requests = Requests::create(
         *participant_, topic::sensor_request, topic::sensor_reply, instance_,

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace pursuit::sensor {
@@ -16,8 +17,8 @@ constexpr std::int64_t slice_us = 1000;
 /// As fast as possible means as fast as readers acknowledge: at most this many packets of the 64
 /// that the writer keeps are on their way.
 constexpr std::uint64_t packets_per_acknowledgement = 16;
-const eprosima::fastrtps::Duration_t acknowledgement_time{0, 200'000'000};
-const eprosima::fastrtps::Duration_t farewell_time{1, 0};
+constexpr std::chrono::milliseconds acknowledgement_time{200};
+constexpr std::chrono::milliseconds farewell_time{1000};
 
 /// Takes from the front of `events` those before `end_us`, at most `most`.
 std::span<Event> take_before(std::span<Event>& events, std::int64_t end_us, std::size_t most) {
@@ -31,16 +32,13 @@ std::span<Event> take_before(std::span<Event>& events, std::int64_t end_us, std:
 
 }  // namespace
 
-StreamSender::StreamSender(const disk::SensorConfig& config, Writer<v1::EventPacket>& events,
-                           Writer<v1::EventPacket>& exposures, Pacer& pacer, Clock& clock,
-                           Health& health, FilterSwitch& filters, PublisherCounts& counts,
-                           HostTime host_time)
+StreamSender::StreamSender(const disk::SensorConfig& config, const StreamOutputs& outputs,
+                           Pacer& pacer, Clock& clock, FilterSwitch& filters,
+                           PublisherCounts& counts, HostTime host_time)
     : config_(config),
-      events_(events),
-      exposures_(exposures),
+      outputs_(outputs),
       pacer_(pacer),
       clock_(clock),
-      health_(health),
       filters_(filters),
       counts_(counts),
       host_time_(std::move(host_time)) {}
@@ -129,9 +127,9 @@ void StreamSender::end() {
 }
 
 void StreamSender::farewell() {
-    const auto& at_most = pacer_.stopped() ? acknowledgement_time : farewell_time;
-    events_.wait_acknowledged(at_most);
-    exposures_.wait_acknowledged(at_most);
+    const auto at_most = pacer_.stopped() ? acknowledgement_time : farewell_time;
+    outputs_.events.wait_acknowledged(at_most);
+    outputs_.exposures.wait_acknowledged(at_most);
 }
 
 /// Every batch that is complete, of both topics in the order of their time.
@@ -141,10 +139,10 @@ void StreamSender::write_batches() {
     while (event != nullptr || exposure != nullptr) {
         if (exposure == nullptr ||
             (event != nullptr && event->complete_us <= exposure->complete_us)) {
-            write(*event, events_, events_sequence_);
+            write(*event, outputs_.events, events_sequence_);
             event = events_packets_->next();
         } else {
-            write(*exposure, exposures_, exposures_sequence_);
+            write(*exposure, outputs_.exposures, exposures_sequence_);
             exposure = exposures_packets_->next();
         }
     }
@@ -156,10 +154,9 @@ void StreamSender::cut() {
     if (exposures_packets_) counts_.exposures_left += exposures_packets_->cut();
 }
 
-void StreamSender::write(EventBatch& batch, Writer<v1::EventPacket>& writer,
-                         std::uint64_t& sequence) {
+void StreamSender::write(EventBatch& batch, const PacketOutput& output, std::uint64_t& sequence) {
     if (!pacer_.wait_until(batch.complete_us)) cut();
-    const bool of_events = &writer == &events_;
+    const bool of_events = &output == &outputs_.events;
     const auto size = counts_.size.load();
     packet_.sensor_id(config_.sensor_id());
     packet_.stream_id(counts_.stream_id);
@@ -173,12 +170,12 @@ void StreamSender::write(EventBatch& batch, Writer<v1::EventPacket>& writer,
                                      : lost_exposures() - lost_exposures_before_);
     packet_.words().swap(batch.words);
     const auto words = packet_.words().size();
-    if (writer.write(packet_)) {
+    if (output.write(packet_)) {
         (of_events ? counts_.events_out : counts_.exposures_out) += words;
     } else {
         (of_events ? counts_.events_unsent : counts_.exposures_unsent) += words;
-        health_.error("a packet of " + std::to_string(words) +
-                      (of_events ? " events" : " exposures") + " could not be published");
+        outputs_.error("a packet of " + std::to_string(words) +
+                       (of_events ? " events" : " exposures") + " could not be published");
     }
     ++counts_.packets_out;
     counts_.last_t_us = batch.complete_us;
@@ -197,8 +194,8 @@ std::uint64_t StreamSender::lost_events() const {
 }
 
 void StreamSender::await_acknowledgement() {
-    if (!events_.wait_acknowledged(acknowledgement_time) ||
-        (exposures_packets_ && !exposures_.wait_acknowledged(acknowledgement_time))) {
+    if (!outputs_.events.wait_acknowledged(acknowledgement_time) ||
+        (exposures_packets_ && !outputs_.exposures.wait_acknowledged(acknowledgement_time))) {
         counts_.packets_unacknowledged += packets_per_acknowledgement;
         spdlog::warn("a reader has not acknowledged the last {} packets",
                      packets_per_acknowledgement);

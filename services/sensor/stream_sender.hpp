@@ -9,11 +9,11 @@
 #include <span>
 
 #include "config.pb.h"
-#include "services/common/health.hpp"
-#include "services/common/writer.hpp"
+#include "services/common/clock.hpp"
 #include "services/sensor/filter_switch.hpp"
 #include "services/sensor/pacer.hpp"
 #include "services/sensor/packetizer.hpp"
+#include "services/sensor/stream_outputs.hpp"
 
 namespace pursuit::sensor {
 
@@ -49,9 +49,8 @@ class StreamSender {
     using HostTime = std::function<std::int64_t(std::int64_t t_us)>;
 
     /// `host_time` gives CLOCK_REALTIME of a sensor time. Everything must outlive the sender.
-    StreamSender(const disk::SensorConfig& config, Writer<v1::EventPacket>& events,
-                 Writer<v1::EventPacket>& exposures, Pacer& pacer, Clock& clock, Health& health,
-                 FilterSwitch& filters, PublisherCounts& counts, HostTime host_time);
+    StreamSender(const disk::SensorConfig& config, const StreamOutputs& outputs, Pacer& pacer,
+                 Clock& clock, FilterSwitch& filters, PublisherCounts& counts, HostTime host_time);
 
     /// Whether a packet now and then waits for its readers: for sources that can wait.
     void await_readers(bool wanted) { awaits_readers_ = wanted; }
@@ -79,17 +78,15 @@ class StreamSender {
     void send_slice(std::span<Event> events, std::span<Event> exposures, std::int64_t reached_us);
     void write_batches();
     void cut();
-    void write(EventBatch& batch, Writer<v1::EventPacket>& writer, std::uint64_t& sequence);
+    void write(EventBatch& batch, const PacketOutput& output, std::uint64_t& sequence);
     void await_acknowledgement();
     std::uint64_t lost_events() const;
     std::uint64_t lost_exposures() const;
 
     const disk::SensorConfig& config_;
-    Writer<v1::EventPacket>& events_;
-    Writer<v1::EventPacket>& exposures_;
+    const StreamOutputs& outputs_;
     Pacer& pacer_;
     Clock& clock_;
-    Health& health_;
     FilterSwitch& filters_;
     PublisherCounts& counts_;
     HostTime host_time_;
