@@ -65,7 +65,6 @@ std::string headline(const char* service, const std::string& instance,
     return text;
 }
 
-/// The causes that counted anything, or nothing.
 /// Event time; below 0 there is none yet.
 std::string at_time(std::int64_t t_us) {
     if (t_us < 0) return "before the first event";
@@ -75,7 +74,8 @@ std::string at_time(std::int64_t t_us) {
 /// Why objects were lost is among the causes, and is nothing that was dropped.
 constexpr std::string_view of_lost = "objects.lost.";
 
-/// Those that begin with `with`, less that, or, without, those that are nothing of the objects'.
+/// The causes that counted anything, or nothing: those that begin with `with`, less that, or,
+/// without, those that are nothing of the objects'.
 std::string causes(const std::vector<v1::NamedCount>& counts, std::string_view with = "") {
     std::string text;
     for (const auto& count : counts) {
