@@ -70,6 +70,7 @@ class RequestServer {
 
     /// Requests not taken because too many were pending: their senders hear nothing.
     std::uint64_t overflows() const { return overflows_.load(); }
+    /// Replies that the middleware did not take.
     std::uint64_t failures() const { return writer_->failures(); }
 
  private:

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "services/common/request_losses.hpp"
 #include "services/sensor/event_publisher.hpp"
 #include "services/sensor/filter_wire.hpp"
 #include "services/sensor/live_publisher.hpp"
@@ -115,7 +116,7 @@ void SensorService::receive(const v1::SensorRequest& request, Requests& server) 
         filter_requests_.emplace_back(request.header().request_id(), request.call().set_filters());
         return;
     }
-    server.answer(request.header().request_id(), serve(request));
+    server.answer(request.header().request_id(), serve(request, server));
 }
 
 void SensorService::set_filters() {
@@ -138,7 +139,7 @@ void SensorService::set_filters() {
     }
 }
 
-v1::SensorReply SensorService::serve(const v1::SensorRequest& request) {
+v1::SensorReply SensorService::serve(const v1::SensorRequest& request, const Requests& server) {
     v1::SensorReply reply;
     const auto kind = request.call()._d();
     switch (kind) {
@@ -167,10 +168,10 @@ v1::SensorReply SensorService::serve(const v1::SensorRequest& request) {
             pacer_.resume();
             break;
         case v1::SENSOR_GET_STATUS:
-            reply.result().get_status(status());
+            reply.result().get_status(status(server));
             break;
         default:
-            reply.result().get_status(status());
+            reply.result().get_status(status(server));
             reply.header().remote_exception(v1::REMOTE_UNKNOWN_OPERATION);
             refuse(reply, v1::STATUS_UNSUPPORTED,
                    "call " + std::to_string(static_cast<int>(kind)) + " is unknown");
@@ -193,7 +194,7 @@ v1::ServiceState SensorService::service_state() const {
     return v1::SERVICE_FAULT;
 }
 
-v1::SensorStatus SensorService::status() const {
+v1::SensorStatus SensorService::status(const Requests& server) const {
     const auto& counts = publisher_->counts();
     v1::SensorStatus status;
     status.instance(instance_);
@@ -232,6 +233,7 @@ v1::SensorStatus SensorService::status() const {
     cause("exposures.queue_full", counts.exposures_overtaken);
     cause("exposures.unsent_at_stop", counts.exposures_left);
     cause("packets.unacknowledged", counts.packets_unacknowledged);
+    add_losses(status.dropped_by(), server);
     status.event_rate_hz(event_rate_hz_);
     status.lag_us(static_cast<double>(pacer_.lag_us()));
     status.host_clock_drift_ppm(publisher_->drift_ppm());
@@ -257,7 +259,7 @@ void SensorService::tick() {
     }
     last_state_ = state;
     health_.state(state, status_line());
-    auto sample = status();
+    auto sample = status(*requests_);
     status_->write(sample);
 }
 
@@ -290,12 +292,13 @@ std::string SensorService::status_line() const {
 
 void SensorService::stop() {
     if (publisher_) publisher_->stop();
-    if (status_ && publisher_) {
+    // Made last: without it nothing was sent.
+    if (requests_) {
         // The last word: what was sent in all.
         health_.state(publisher_->state() == Publisher::State::failed ? v1::SERVICE_FAULT
                                                                       : v1::SERVICE_FINISHED,
                       status_line());
-        auto sample = status();
+        auto sample = status(*requests_);
         status_->write(sample);
         status_->wait_acknowledged({0, 200'000'000});
     }

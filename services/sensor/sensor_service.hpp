@@ -43,9 +43,10 @@ class SensorService final : public Service {
     SensorService(const disk::SensorConfig& config, std::unique_ptr<FilterSwitch> filters);
 
     void receive(const v1::SensorRequest& request, Requests& server);
-    v1::SensorReply serve(const v1::SensorRequest& request);
+    v1::SensorReply serve(const v1::SensorRequest& request, const Requests& server);
     void set_filters();
-    v1::SensorStatus status() const;
+    /// `server`: the one of requests_; a request may come before it is there.
+    v1::SensorStatus status(const Requests& server) const;
     v1::ServiceState service_state() const;
 
     const disk::SensorConfig config_;

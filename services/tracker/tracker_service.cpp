@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "services/common/request_losses.hpp"
 #include "services/tracker/start_settings.hpp"
 
 namespace pursuit::tracker {
@@ -139,6 +140,7 @@ void TrackerService::receive(v1::TrackerRequest& request, Server& server) {
 v1::TrackerStatus TrackerService::status(const SessionFigures& figures) {
     v1::TrackerStatus status =
         tracker_status(identity_, figures, queue_.figures(), intake_, clock_);
+    add_losses(status.dropped_by(), *requests_);
     status.health().state(state_of(status, figures.stream_open));
     const std::string described = describe(status);
     health_.state(status.health().state(), described);

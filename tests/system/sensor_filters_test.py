@@ -45,6 +45,7 @@ class Filters(SystemTest):
         self.service("sensor", scene="overtake", rate=0.2, wait_for_subscribers=1)
         rate = lambda: self.status_of("sensor")["dropped_by"]["filter.polarity"]
         self.assertEqual(rate(), 0)
+        self.assertEqual(self.status_of("sensor")["dropped_by"]["requests.not_taken"], 0)
         self.ctl("sensor", "filters", "polarity keep=1")
         self.eventually(lambda: rate() > 0, what="OFF events are dropped")
         stream = self.status_of("sensor")["stream_id"]

@@ -43,6 +43,11 @@ class TrackerCalls(SystemTest):
         self.assertIn("'one'", self.ctl_err)
         self.assertIn("is object 3", self.register("one"), "an id is never given again")
 
+    def test_the_status_says_how_many_calls_and_replies_were_lost(self):
+        causes = self.status()["dropped_by"]
+        self.assertEqual(causes["requests.not_taken"], 0)
+        self.assertEqual(causes["writes.replies_failed"], 0)
+
     def test_identical_content_gives_the_same_id_and_other_content_is_refused(self):
         self.register("one")
         self.assertIn("was already object 1", self.register("one"))
