@@ -115,6 +115,12 @@ void ReplayActivity::tell_plan() {
         spdlog::warn("{}: the recording has {} gaps, {} packets are missing",
                      configuration_.replay(), plan_.gaps, plan_.packets_missed);
     }
+    if (!plan_.clock_steps.empty()) {
+        spdlog::warn(
+            "{}: the clock of the host was set {} times while it was recorded; the replay "
+            "goes on as if it had not been",
+            configuration_.replay(), plan_.clock_steps.size());
+    }
     if (plan_.unanswered > 0) {
         spdlog::warn("{}: {} requests have no reply in the recording and are left out",
                      configuration_.replay(), plan_.unanswered);
@@ -146,6 +152,7 @@ Result<void> ReplayActivity::play_once() {
                                      mcap::OnDamage::skip_chunk);
     if (!reader) return tl::unexpected(reader.error());
     schedule_ = CallSchedule(plan_.calls);
+    time_ = SteppedTime(plan_.clock_steps);
     renewal_ = StreamRenewal(static_cast<std::uint64_t>(clock_.realtime_ns()));
     outlet_->restart();
     pace_.restart();
@@ -154,11 +161,12 @@ Result<void> ReplayActivity::play_once() {
         const auto message = reader->next();
         if (!message || !*message) break;  // damage was told by the first pass
         const auto& view = **message;
+        const auto time_ns = time_.next(view.head.log_time_ns);
         auto* channel = outlet_->channel(view.channel->topic);
         if (channel == nullptr || view.channel->message_encoding != mcap::message_encoding) {
             continue;
         }
-        play(view, *channel);
+        play(view, time_ns, *channel);
     }
     if (pace_.stopped()) return {};
     make(schedule_.take_rest());
@@ -166,13 +174,14 @@ Result<void> ReplayActivity::play_once() {
     return {};
 }
 
-void ReplayActivity::play(const mcap::MessageView& message, ReplayChannel& channel) {
+void ReplayActivity::play(const mcap::MessageView& message, std::int64_t time_ns,
+                          ReplayChannel& channel) {
     std::optional<PacketFields> packet;
     if (carries_packets(channel.topic())) {
         packet = PacketFields::of(message.data);
         if (!packet) return;  // counted by the first pass
     }
-    const auto due = pace_.wait(message.head.log_time_ns);
+    const auto due = pace_.wait(time_ns);
     if (!due) return;
     Payload payload(message.data.begin(), message.data.end());
     if (packet) {

@@ -14,6 +14,7 @@
 #include "services/recorder/activity.hpp"
 #include "services/recorder/mcap/reader.hpp"
 #include "services/recorder/replay/call_schedule.hpp"
+#include "services/recorder/replay/clock_steps.hpp"
 #include "services/recorder/replay/replay_outlet.hpp"
 #include "services/recorder/replay/replay_pace.hpp"
 #include "services/recorder/replay/replay_plan.hpp"
@@ -21,7 +22,8 @@
 
 namespace pursuit::recorder {
 
-/// Replays a recording: publishes its packets at the pace of their log times, and makes the calls
+/// Replays a recording: publishes its packets at the pace of their log times (but for
+/// steps of the clock that those are of), and makes the calls
 /// that changed the tracker when it was recorded, each before the first packet that reaches its
 /// time.
 ///
@@ -53,7 +55,7 @@ class ReplayActivity final : public Activity {
     void tell_plan();
     bool wait_for_peers();
     Result<void> play_once();
-    void play(const mcap::MessageView& message, ReplayChannel& channel);
+    void play(const mcap::MessageView& message, std::int64_t time_ns, ReplayChannel& channel);
     void make(const std::vector<CallSchedule::DueCall>& calls);
     void say(v1::ServiceState state, const std::string& line);
     void error(const std::string& message);
@@ -68,6 +70,7 @@ class ReplayActivity final : public Activity {
 
     // Of one pass.
     CallSchedule schedule_;
+    SteppedTime time_;
     StreamRenewal renewal_;
 
     std::atomic<bool> finished_{false};

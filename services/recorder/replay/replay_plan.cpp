@@ -37,7 +37,7 @@ class Pass {
         Callee callee;
     };
 
-    void take_packet(const std::string& topic, mcap::ByteSpan data);
+    void take_packet(const std::string& topic, const std::optional<PacketFields>& packet);
     void take_request(mcap::ByteSpan data);
     void take_reply(mcap::ByteSpan data);
     void take_call(RecordedCall call);
@@ -57,6 +57,7 @@ class Pass {
     }
 
     ReplayPlan plan_;
+    ClockSteps clock_steps_;
     StreamGaps gaps_;
     SensorStreams streams_;
     RecordedCalls recorded_;
@@ -69,12 +70,16 @@ class Pass {
 
 void Pass::take(const mcap::MessageView& message) {
     const auto& channel = *message.channel;
-    if (channel.message_encoding != mcap::message_encoding) return;
     const auto& name = channel.topic;
+    const bool is_sample = channel.message_encoding == mcap::message_encoding;
+    std::optional<PacketFields> packet;
+    if (is_sample && carries_packets(name)) packet = PacketFields::of(message.data);
+    clock_steps_.take(message.head.log_time_ns, packet);
+    if (!is_sample) return;
     ++plan_.messages[name];
     if (carries_packets(name)) {
         if (seen_channels_.insert(&channel).second) take_partitions(channel);
-        take_packet(name, message.data);
+        take_packet(name, packet);
     } else if (name == topic::tracker_request) {
         take_request(message.data);
     } else if (name == topic::tracker_reply) {
@@ -97,8 +102,7 @@ void Pass::take_partitions(const mcap::Channel& channel) {
     }
 }
 
-void Pass::take_packet(const std::string& name, mcap::ByteSpan data) {
-    const auto packet = PacketFields::of(data);
+void Pass::take_packet(const std::string& name, const std::optional<PacketFields>& packet) {
     if (!packet) {
         ++plan_.malformed;
         return;
@@ -194,6 +198,7 @@ ReplayPlan Pass::finish() {
         add(std::move(request), {sensor_id, std::move(instance)}, stream, 0);
     }
     plan_calls();
+    plan_.clock_steps = clock_steps_.steps();
     plan_.gaps = gaps_.gaps();
     plan_.packets_missed = gaps_.missed();
     plan_.unanswered = recorded_.unanswered();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "services/common/result.hpp"
+#include "services/recorder/replay/clock_steps.hpp"
 #include "services/recorder/replay/planned_call.hpp"
 
 namespace pursuit::recorder {
@@ -18,6 +19,7 @@ struct ReplayPlan {
     std::map<std::uint32_t, std::deque<PlannedCall>> calls;  ///< By sensor id, in order.
     std::map<std::string, std::uint64_t> messages;           ///< By topic.
     std::vector<std::string> partitions;  ///< Named ones in which events were offered.
+    std::vector<ClockStep> clock_steps;   ///< Of the host that recorded it.
     std::uint64_t gaps = 0;               ///< Breaks of event streams in the recording.
     std::uint64_t packets_missed = 0;     ///< In those gaps.
     std::uint64_t malformed = 0;          ///< Messages that are not of their topic's type.

@@ -85,6 +85,15 @@ class ReplayPlanOf : public ::testing::Test {
         write(models_, serialized(model));
     }
 
+    /// What is recorded from here on has log times of a clock that was set.
+    void set_clock(std::int64_t by_ns) { time_ns_ += by_ns; }
+
+    std::size_t clock_steps() {
+        EXPECT_TRUE(writer_->close());
+        const auto plan = make_plan(path_, [] { return false; });
+        return plan ? plan->clock_steps.size() : 0;
+    }
+
     /// Which calls the plan makes: model names and times, in turn.
     std::vector<std::string> planned() {
         EXPECT_TRUE(writer_->close());
@@ -124,6 +133,13 @@ class ReplayPlanOf : public ::testing::Test {
 };
 
 TEST_F(ReplayPlanOf, a_recording_without_calls_is_empty) { EXPECT_TRUE(planned().empty()); }
+
+TEST_F(ReplayPlanOf, a_recording_across_a_step_of_the_clock_tells_of_it) {
+    record_request(1);
+    set_clock(-3'600'000'000'000);
+    record_reply(1, 70);
+    EXPECT_EQ(clock_steps(), 1U);
+}
 
 TEST_F(ReplayPlanOf, a_call_is_made_at_its_recorded_time) {
     record_request(1);
