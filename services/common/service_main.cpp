@@ -80,7 +80,8 @@ int run(Service& service, const std::string& name, const FieldPlaces& places,
     signals.release();
     const bool failed = service.failed();
     service.stop();
-    return failed ? exit_failure : exit_success;
+    // What is written last may fail too.
+    return failed || service.failed() ? exit_failure : exit_success;
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ class Service {
     virtual void tick() = 0;
     /// True when there is nothing more to do: the process leaves with exit code 0, or 1 if failed.
     virtual bool finished() const = 0;
+    /// Asked before stop() and after it.
     virtual bool failed() const = 0;
     /// One line for systemd's STATUS: what it does, or what it waits for.
     virtual std::string status_line() const = 0;

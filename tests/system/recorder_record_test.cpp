@@ -3,6 +3,7 @@
 #include <sys/mount.h>
 
 #include <algorithm>
+#include <fstream>
 #include <future>
 
 #include "tests/system/recorder_fixture.hpp"
@@ -234,6 +235,30 @@ TEST_F(Recorder, on_a_full_disk_says_so_goes_on_and_records_again_when_there_is_
         EXPECT_LT(process->stop(), 2s);
         EXPECT_EQ(process->wait(), 0) << process->log();
         EXPECT_TRUE(read_recording(file).payloads(topic::events) == sent);
+    }
+    EXPECT_EQ(::umount(disk.c_str()), 0);
+}
+
+TEST_F(Recorder, that_finds_the_disk_full_at_its_start_waits_for_room_and_stopped_so_has_failed) {
+    const auto disk = path("disk");
+    std::filesystem::create_directory(disk);
+    if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64k") != 0) {
+        GTEST_SKIP() << "a small file system cannot be mounted without being root";
+    }
+    std::ofstream(disk + "/other") << std::string(100'000, ' ');
+    {
+        auto process = recorder({"output=" + disk + "/run.mcap"});
+        EXPECT_TRUE(eventually([&] { return status().health().state() == v1::SERVICE_FAULT; }));
+        EXPECT_LT(process->stop(), 2s);
+        EXPECT_EQ(process->wait(), 1) << process->log();
+    }
+    {
+        auto process = recorder({"output=" + disk + "/run.mcap"});
+        EXPECT_TRUE(eventually([&] { return status().health().state() == v1::SERVICE_FAULT; }));
+        std::filesystem::remove(disk + "/other");
+        EXPECT_TRUE(eventually([&] { return status().health().state() == v1::SERVICE_RUNNING; }));
+        EXPECT_LT(process->stop(), 2s);
+        EXPECT_EQ(process->wait(), 0) << process->log();
     }
     EXPECT_EQ(::umount(disk.c_str()), 0);
 }

@@ -31,17 +31,21 @@ FileSequence::FileSequence(FileOptions options, const std::vector<TopicFacts>& t
     totals_.topics_lost.resize(topics.size());
 }
 
-Result<void> FileSequence::begin(const Now& now) { return open(now); }
+Result<void> FileSequence::begin(const Now& now) {
+    if (auto ok = check_output(expand_time(options_.output, now.host_ns)); !ok) return ok;
+    if (const auto ok = open(now); !ok) give_up(ok.error().message, now);
+    return {};
+}
 
 Result<void> FileSequence::open(const Now& now) {
-    const auto path = free_path(expand_time(options_.output, now.host_ns));
-    auto made = begin_file(path, now);
+    path_ = free_path(expand_time(options_.output, now.host_ns));
+    auto made = begin_file(path_, now);
     if (!made) return tl::unexpected(made.error());
     file_.emplace(std::move(*made));
     begun_bytes_ = file_->bytes();
     begun_chunks_ = file_->totals().chunks;
     accounted_ = {};
-    totals_.file = path;
+    totals_.file = path_;
     totals_.fault.clear();
     ++totals_.changes;
     account(now);
@@ -168,7 +172,11 @@ void FileSequence::give_up(const std::string& error, const Now& now) {
         if (empty) std::filesystem::remove(path, ignored);
     }
     retry_at_us_ = now.steady_us + retry_us;
-    if (error == totals_.fault) return;
+    // With %t the name is another at each try, but the reason is still the same.
+    auto reason = error.starts_with(path_) ? error.substr(path_.size()) : error;
+    const bool told = !totals_.fault.empty() && reason == reason_;
+    reason_ = std::move(reason);
+    if (told) return;
     totals_.fault = error;
     ++totals_.changes;
     on_error_(error);

@@ -55,9 +55,9 @@ struct FileTotals {
 /// A recording over one or several files.
 ///
 ///   begin() ─► recording ── full, or new_file() ──────────► recording, in the next file
-///                 │ the disk gives an error        every second: a next file is tried
-///                 ▼                                        │
-///               fault ── samples are dropped and counted ──┘
+///      │          │ the disk gives an error        every second: a next file is tried
+///      │          ▼                                        │
+///      └─────►  fault ── samples are dropped and counted ──┘
 ///
 /// Every file but the first begins with what the latched topics held then (LatchedSamples): the
 /// models and settings without which its events give no poses. They have the publish time of their
@@ -75,7 +75,8 @@ class FileSequence {
     FileSequence(FileOptions options, const std::vector<TopicFacts>& topics,
                  RecordingFile::Discovered discovered, OnError on_error);
 
-    /// Opens the first file.
+    /// Opens the first file, or begins in fault. An error only where trying again would not help
+    /// (check_output).
     Result<void> begin(const Now& now);
     void write(const Sample& sample, const Now& now);
     /// Closes chunks that are old enough, tries again after a fault. At least every chunk age / 4.
@@ -107,6 +108,7 @@ class FileSequence {
     LatchedSamples latched_;
     bool told_latched_full_ = false;
     std::int64_t last_reception_ns_ = 0;
+    std::string path_;  ///< Of the file that was tried last.
     std::optional<RecordingFile> file_;
     std::uint64_t begun_bytes_ = 0;  ///< Of file_, what it began with.
     std::uint64_t begun_chunks_ = 0;
@@ -114,6 +116,7 @@ class FileSequence {
     std::vector<TopicTotals> in_chunk_;   ///< The open chunk, by topic.
     std::vector<TopicTotals> unflushed_;  ///< Closed chunks, likewise.
     std::int64_t retry_at_us_ = 0;
+    std::string reason_;  ///< Of the last fault, without the path.
     StreamGaps gaps_;
     FileTotals totals_;
 };

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/recorder/record/output_path.hpp"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 
@@ -17,6 +22,15 @@ std::string expand_time(const std::string& pattern, std::int64_t time_ns) {
         path.replace(at, 2, text);
     }
     return path;
+}
+
+Result<void> check_output(const std::string& path) {
+    const auto refused = [&] { return fail(path + ": cannot create: " + std::strerror(errno)); };
+    const auto folder = std::filesystem::path(path).parent_path();
+    if (::access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) return refused();
+    struct stat ignored {};
+    if (::lstat(path.c_str(), &ignored) != 0 && errno != ENOENT) return refused();
+    return {};
 }
 
 std::string free_path(const std::string& path) {

@@ -75,7 +75,7 @@ Result<void> RecordActivity::start() {
         if (!reader) return tl::unexpected(reader.error());
         readers_.push_back(std::move(*reader));
     }
-    spdlog::info("records {} topics to {}", topics.size(), recording_->figures().files.file);
+    spdlog::info("{} topics: {}", topics.size(), status_line());
     return {};
 }
 
@@ -95,6 +95,10 @@ void RecordActivity::stop() {
     if (participant_) participant_->dds().set_listener(nullptr);
     participant_.reset();
     if (recording_) recording_->stop(drain_at_most);
+}
+
+bool RecordActivity::failed() const {
+    return recording_ && !recording_->figures().files.fault.empty();
 }
 
 std::string RecordActivity::status_line() const {

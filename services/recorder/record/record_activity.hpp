@@ -24,7 +24,8 @@ class RecordActivity final : public Activity {
     Result<void> start() override;
     void tick() override {}
     bool finished() const override { return false; }
-    bool failed() const override { return false; }
+    /// The file that was written last could not be.
+    bool failed() const override;
     void stop() override;
     std::string status_line() const override;
     v1::ServiceState state() const override;

@@ -34,7 +34,8 @@ class Recording {
     using OnError = FileSequence::OnError;
     using NewFileDone = std::function<void(const Result<std::string>& path)>;
 
-    /// Opens the first file and starts the thread. `on_error` is called on that thread.
+    /// Opens the first file, or begins in fault (FileSequence), and starts the thread. `on_error`
+    /// is called on that thread, and here before it starts.
     static Result<std::unique_ptr<Recording>> start(FileOptions options, std::size_t queue_bytes,
                                                     std::vector<TopicFacts> topics,
                                                     RecordingFile::Discovered discovered,

@@ -90,6 +90,7 @@ void ReplayActivity::run() {
 Result<void> ReplayActivity::prepare() {
     auto plan = make_plan(configuration_.replay(), [this] { return pace_.stopped(); });
     if (!plan) return tl::unexpected(plan.error());
+    if (pace_.stopped()) return {};  // what was not read is no fault of the file
     plan_ = std::move(*plan);
     tell_plan();
     const auto& wanted = configuration_.topic();

@@ -242,6 +242,39 @@ TEST_F(Files, that_cannot_be_written_are_tried_again_every_second_and_what_is_lo
     EXPECT_EQ(errors_.size(), 1U);
 }
 
+TEST_F(Files, that_find_the_disk_full_at_the_start_are_tried_again_like_later_ones) {
+    const auto disk = std::make_shared<mcap::MemoryOutput::Disk>();
+    disk->fail_at = 0;
+    auto files = sequence(
+        {path("a.mcap"), {}, 0, [&](auto&) { return std::make_unique<mcap::MemoryOutput>(disk); }});
+    ASSERT_TRUE(files.begin({}));
+    EXPECT_THAT(files.totals().fault, ::testing::HasSubstr("No space left on device"));
+    files.write(sample(1), {});
+    EXPECT_EQ(files.totals().lost_disk, 1U);
+    disk->fail_at = -1;
+    files.tick({1'000'000, 0});
+    EXPECT_EQ(files.totals().fault, "");
+    EXPECT_EQ(files.totals().file, path("a.mcap"));
+}
+
+TEST_F(Files, that_cannot_be_written_are_told_of_once_whatever_they_are_called) {
+    const auto place = path("place");
+    std::filesystem::create_directory(place);
+    auto files = sequence({place + "/%t.mcap", {}, 0});
+    ASSERT_TRUE(files.begin({}));
+    std::filesystem::remove_all(place);
+    EXPECT_FALSE(files.new_file({}));
+    for (std::int64_t second = 1; second <= 3; ++second) {
+        files.tick({second * 1'000'000, second * 1'000'000'000});
+    }
+    EXPECT_EQ(errors_.size(), 1U);
+    // Another reason is told.
+    std::ofstream(place) << "";
+    files.tick({4'000'000, 4'000'000'000});
+    EXPECT_EQ(errors_.size(), 2U);
+    EXPECT_THAT(files.totals().fault, ::testing::HasSubstr("Not a directory"));
+}
+
 TEST_F(Files, that_cannot_be_flushed_count_what_they_hold_as_lost) {
     for (const std::int64_t flush_interval_us : {0, 1'000'000}) {
         const auto disk = std::make_shared<mcap::MemoryOutput::Disk>();
@@ -272,6 +305,7 @@ TEST_F(Files, that_cannot_be_begun_are_an_error_with_the_path) {
     const auto begun = files.begin({});
     ASSERT_FALSE(begun);
     EXPECT_THAT(begun.error().message, ::testing::HasSubstr(path("nowhere/a.mcap")));
+    EXPECT_FALSE(sequence({path(std::string(300, 'a')), {}, 0}).begin({}));
 }
 
 TEST_F(Files, take_the_first_free_name) {
