@@ -208,6 +208,15 @@ class LiveSource(SystemTest):
         self.assertEqual(status["errors"], 1)
         self.assertIn("byte 132: ", status["last_error"])
 
+    def test_a_peer_that_sends_a_little_and_closes_is_called_more_and_more_seldom(self):
+        self.live()
+        self.peer.accept()
+        begin = time.monotonic()
+        for _ in range(6):
+            self.peer.connection.sendall(evt2(64_000, 1, 10))
+            self.peer.accept()  # after 10, 20, 40, 80, 160 and 320 ms
+        self.assertGreater(time.monotonic() - begin, 0.6)
+
     def test_paused_it_drops_the_oldest_and_resumed_it_goes_on(self):
         self.live(live_buffer_events=65536)
         self.peer.accept()

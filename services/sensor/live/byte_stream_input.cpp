@@ -27,24 +27,24 @@ void ByteStreamInput::run(LiveSink& sink, const StopSignal& stop) {
             sink.waits_for(source.error().message);
         } else {
             sink.waits_for("bytes of " + address_.text);
-            if (hear(std::move(*source), sink, stop)) back_off.succeeded();
+            hear(std::move(*source), sink, stop);
+            back_off.heard(sink.take_lasted());
             if (address_.kind == LiveAddress::Kind::standard_input) break;
         }
         stop.wait(-1, 0, back_off.next());
     }
 }
 
-bool ByteStreamInput::hear(std::unique_ptr<ByteSource> source, LiveSink& sink,
+void ByteStreamInput::hear(std::unique_ptr<ByteSource> source, LiveSink& sink,
                            const StopSignal& stop) {
     auto reader = open_events(std::move(source), format_);
     if (!reader) {
         // A peer that closes before it has sent anything is one that is not there yet.
         if (!stop.raised()) sink.waits_for(reader.error().message);
-        return false;
+        return;
     }
     sink.begin((*reader)->geometry());
     std::string fault;
-    bool heard = false;
     std::uint64_t skipped = 0;
     for (;;) {
         const auto batch = (*reader)->read(events_, exposures_);
@@ -55,7 +55,6 @@ bool ByteStreamInput::hear(std::unique_ptr<ByteSource> source, LiveSink& sink,
             break;
         }
         if (batch->at_end) break;
-        heard = true;
         sink.push(std::span(events_).first(batch->events),
                   std::span(exposures_).first(batch->exposures), (*reader)->time_us());
     }
@@ -63,7 +62,6 @@ bool ByteStreamInput::hear(std::unique_ptr<ByteSource> source, LiveSink& sink,
     reader->reset();
     sink.waits_for(fault.empty() ? address_.text : fault);
     sink.end(fault);
-    return heard;
 }
 
 }  // namespace pursuit::sensor

@@ -30,8 +30,8 @@ class ByteStreamInput final : public LiveInput {
     void run(LiveSink& sink, const StopSignal& stop) override;
 
  private:
-    /// One connection, to its end; whether it delivered anything.
-    bool hear(std::unique_ptr<ByteSource> source, LiveSink& sink, const StopSignal& stop);
+    /// One connection, to its end.
+    void hear(std::unique_ptr<ByteSource> source, LiveSink& sink, const StopSignal& stop);
 
     LiveAddress address_;
     ReadOptions format_;

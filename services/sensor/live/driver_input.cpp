@@ -37,7 +37,6 @@ class Run {
     void end(const std::string& fault) {
         if (std::exchange(in_stream_, false)) sink_.end(stop_.raised() ? "" : fault);
     }
-    bool heard() const { return heard_; }
 
  private:
     static Run& self(void* run) { return *static_cast<Run*>(run); }
@@ -73,7 +72,6 @@ class Run {
         }
         sink_.unusable(given.size() - good_.size());
         if (reached_us < max_t_us) reached_us_ = std::max(reached_us_, reached_us);
-        heard_ = true;
         const std::span<const Event> none;
         sink_.push(exposures ? none : good_, exposures ? good_ : none, reached_us_);
     }
@@ -83,7 +81,6 @@ class Run {
     const std::string& driver_;
     bool in_stream_ = false;
     bool told_of_size_ = false;
-    bool heard_ = false;
     Geometry geometry_;
     std::int64_t reached_us_ = 0;
     std::vector<Event> good_;
@@ -131,7 +128,7 @@ void DriverInput::run(LiveSink& sink, const StopSignal& stop) {
         run.end(what);
         if (fault == 0) return;
         sink.waits_for(what);
-        if (run.heard()) back_off.succeeded();
+        back_off.heard(sink.take_lasted());
         stop.wait(-1, 0, back_off.next());
     }
 }

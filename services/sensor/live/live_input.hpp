@@ -20,12 +20,16 @@ class LiveInput {
 };
 
 /// How long to wait before the next attempt: 10 ms at first, twice as long each time, at most
-/// `longest`. A stream that delivered something begins again at 10 ms.
+/// `longest`. After a stream that lasted as long it begins again at 10 ms; one that ends at once,
+/// again and again, is not worth more haste than none.
 class BackOff {
  public:
     explicit BackOff(std::chrono::milliseconds longest) : longest_(longest) {}
 
-    void succeeded() { next_ = first; }
+    /// What was heard since the last attempt lasted so long.
+    void heard(std::chrono::nanoseconds lasted) {
+        if (lasted >= longest_) next_ = first;
+    }
     std::chrono::milliseconds next() {
         const auto wait = std::min(next_, longest_);
         next_ = std::min(2 * wait, longest_);

@@ -6,7 +6,8 @@ namespace pursuit::sensor {
 void LiveSink::begin(Geometry geometry) {
     waits_for("");
     host_time_.restart();
-    heard_ns_ = clock_.steady_ns();
+    begun_ns_ = clock_.steady_ns();
+    heard_ns_ = begun_ns_;
     queue_.begin(geometry);
 }
 
@@ -21,7 +22,8 @@ void LiveSink::push(std::span<const Event> events, std::span<const Event> exposu
 }
 
 void LiveSink::end(const std::string& fault) {
-    heard_ns_ = 0;
+    // A fault may be told without a stream.
+    if (heard_ns_.exchange(0) != 0) lasted_ns_ += clock_.steady_ns() - begun_ns_;
     if (!fault.empty()) ++faults_;
     queue_.end(fault);
 }

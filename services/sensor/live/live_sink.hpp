@@ -2,10 +2,12 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "services/common/clock.hpp"
 #include "services/sensor/live/host_time_map.hpp"
@@ -26,6 +28,12 @@ class LiveSink {
               std::int64_t reached_us);
     /// `fault`: why, where it should not have ended, or why it could not begin; else empty.
     void end(const std::string& fault);
+
+    /// How long the streams were that have ended since this was asked last. Of the thread that
+    /// hands over.
+    std::chrono::nanoseconds take_lasted() {
+        return std::chrono::nanoseconds(std::exchange(lasted_ns_, 0));
+    }
 
     /// Events that came and could not be used: their time is unknown, or they break the contract.
     void unusable(std::uint64_t events) { unusable_ += events; }
@@ -48,6 +56,8 @@ class LiveSink {
     LiveQueue queue_;
     Clock& clock_;
     HostTimeMap host_time_;
+    std::int64_t begun_ns_ = 0;  ///< The stream, steady.
+    std::int64_t lasted_ns_ = 0;
     std::atomic<std::uint64_t> unusable_{0};
     std::atomic<std::uint64_t> lost_before_{0};
     std::atomic<std::uint64_t> faults_{0};

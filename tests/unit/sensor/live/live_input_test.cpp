@@ -85,15 +85,32 @@ TEST(LiveAddress, is_standard_input_a_path_or_a_host_and_a_port) {
     }
 }
 
-TEST(BackOff, doubles_up_to_its_longest_and_begins_again_after_a_success) {
+TEST(BackOff, doubles_up_to_its_longest_and_begins_again_after_a_stream_that_lasted) {
     BackOff back_off(70ms);
     EXPECT_EQ(back_off.next(), 10ms);
     EXPECT_EQ(back_off.next(), 20ms);
     EXPECT_EQ(back_off.next(), 40ms);
     EXPECT_EQ(back_off.next(), 70ms);
     EXPECT_EQ(back_off.next(), 70ms);
-    back_off.succeeded();
+    back_off.heard(69ms);
+    EXPECT_EQ(back_off.next(), 70ms);
+    back_off.heard(70ms);
     EXPECT_EQ(back_off.next(), 10ms);
+}
+
+TEST(LiveSink, says_how_long_the_streams_lasted_since_it_was_asked) {
+    ManualClock clock(1'000'000'000);
+    LiveSink sink(100, clock);
+    sink.end("nothing had begun");
+    EXPECT_EQ(sink.take_lasted(), 0ms);
+    for (int i = 0; i < 2; ++i) {
+        sink.begin({640, 480});
+        clock.advance(30'000'000);
+        sink.end("");
+        clock.advance(500'000'000);
+    }
+    EXPECT_EQ(sink.take_lasted(), 60ms);
+    EXPECT_EQ(sink.take_lasted(), 0ms);
 }
 
 /// Words of EVT2: a time, then one event at it.
