@@ -117,6 +117,17 @@ class TrackerCalls(SystemTest):
         self.assertEqual(tracker.wait(10), 78)
         self.assertIn(f"{path}:3", tracker.err())
 
+    def test_a_status_that_is_watched_leaves_it_out_once_it_was_killed(self):
+        watch = self.start("pursuitctl", *self.ctl_arguments("status", "--watch", "--json"),
+                           ready=False)
+
+        def shown():
+            lines = watch.out().splitlines(keepends=True)
+            return [json.loads(line)["tracker"] for line in lines if line.endswith("\n")]
+        self.eventually(lambda: shown() and shown()[-1], what="the tracker is shown")
+        self.tracker.kill()
+        self.eventually(lambda: shown()[-1] is None, what="it is left out")
+
     def test_a_call_is_refused_with_a_clear_message_when_nobody_is_there(self):
         self.tracker.kill()
         self.ctl("model", "list", "--timeout", 300, code=1)

@@ -16,6 +16,7 @@
 #include "services/ctl/commands/dds_options.hpp"
 #include "services/ctl/commands/report.hpp"
 #include "services/ctl/json_text.hpp"
+#include "services/ctl/newest_statuses.hpp"
 #include "services/ctl/status_text.hpp"
 
 namespace pursuit::ctl {
@@ -36,13 +37,17 @@ struct StatusOptions {
     bool wait_running = false;
 };
 
-/// The newest status of every service of one kind, by its instance.
+/// NewestStatuses of one kind, as they come.
 template <class Status>
 class Statuses {
  public:
     Result<void> listen(Participant& participant, const char* topic_name) {
-        auto made = Reader<Status>::create(participant, topic_name,
-                                           [this](Status& status, const auto&) { put(status); });
+        auto made = Reader<Status>::create(
+            participant, topic_name, [this](Status& status, const auto& info) {
+                const std::scoped_lock lock(mutex_);
+                newest_.put(status.instance().to_string(), status,
+                            info.sample_identity.writer_guid(), SteadyClock::now());
+            });
         if (!made) return tl::unexpected(made.error());
         reader_ = std::move(*made);
         return {};
@@ -50,25 +55,16 @@ class Statuses {
     /// Whether all who were found have told theirs.
     bool complete() {
         const std::scoped_lock lock(mutex_);
-        return static_cast<int>(newest_.size()) >= reader_->matched();
+        return static_cast<int>(newest_.at(SteadyClock::now()).size()) >= reader_->matched();
     }
     std::map<std::string, Status> newest() {
         const std::scoped_lock lock(mutex_);
-        return newest_;
+        return newest_.at(SteadyClock::now());
     }
 
  private:
-    void put(Status& status) {
-        const std::scoped_lock lock(mutex_);
-        auto& known = newest_[status.instance().to_string()];
-        // A killed service's last words may come after its successor's first.
-        if (known.health().start_host_time_ns() <= status.health().start_host_time_ns()) {
-            known = status;
-        }
-    }
-
     std::mutex mutex_;
-    std::map<std::string, Status> newest_;
+    NewestStatuses<Status, eprosima::fastrtps::rtps::GUID_t> newest_;
     std::unique_ptr<Reader<Status>> reader_;
 };
 
@@ -178,7 +174,9 @@ Run define_status(CLI::App& app) {
     auto options = std::make_shared<StatusOptions>();
     add_dds_options(app, options->dds);
     app.add_flag("--json", options->json, "As one JSON object");
-    app.add_flag("--watch", options->watch, "Again every second, until interrupted");
+    app.add_flag(
+        "--watch", options->watch,
+        "Again every second, until interrupted; a service that is silent for 3 s is left out");
     app.add_flag("--wait-running", options->wait_running,
                  "Wait until every service that is there is RUNNING");
     return [options] { return status(*options); };
