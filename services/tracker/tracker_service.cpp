@@ -78,6 +78,7 @@ Result<void> TrackerService::start() {
             spdlog::warn("object {} is lost at {:.6f} s: {}", lost.model,
                          static_cast<double>(lost.t_us) * 1e-6, to_string(lost.loss_cause));
         },
+        [](const std::string& message) { spdlog::warn("{}", message); },
     };
     store_ = std::make_unique<StoreWriter>(
         path, [this](const std::string& message) { health_.error(message); });

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/sensor/packed_event.hpp"
+#include "services/tracker/store_differences.hpp"
 #include "services/tracker/tracker_wire.hpp"
 
 namespace pursuit::tracker {
@@ -46,16 +47,33 @@ TrackerSession::TrackerSession(Tracker tracker, ServiceIdentity identity,
                }),
       publisher_(identity_.sensor_id, clock, outputs_.pose, outputs_.track, outputs_.loss),
       board_(identity_, outputs_.model, outputs_.settings) {
-    if (stored) restore(*stored);
+    const Settings configured = tracker_.tracker().settings();
+    if (stored) {
+        restore(*stored);
+        const auto different = differences(configured, stored->settings);
+        if (!different.empty()) {
+            outputs_.remark("requests of a former run hold over the configuration: " + different);
+        }
+    }
+    register_models(models, configured);
+    board_.refresh(tracker_.tracker());
+}
+
+void TrackerSession::register_models(const std::vector<Registration>& models,
+                                     const Settings& configured) {
     for (const auto& model : models) {
-        if (tracker_.tracker().object(model.shape.name)) continue;
-        const auto registered = tracker_.tracker().register_object(model);
-        if (!registered) {
-            outputs_.error("model " + model.shape.name +
+        const auto& name = model.shape.name;
+        if (const auto there = tracker_.tracker().object(name)) {
+            const auto different = differences(model, *there, configured.new_objects);
+            if (different.empty()) continue;
+            outputs_.remark("model " + name +
+                            " is as the store has it, not as the configuration: " + different +
+                            "; remove it by request and start again to change that");
+        } else if (const auto registered = tracker_.tracker().register_object(model); !registered) {
+            outputs_.error("model " + name +
                            " of the configuration: " + registered.error().message);
         }
     }
-    board_.refresh(tracker_.tracker());
 }
 
 void TrackerSession::restore(const StoredState& stored) {

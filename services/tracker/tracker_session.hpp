@@ -50,6 +50,7 @@ struct SessionOutputs {
     std::function<v1::TrackerStatus(const SessionFigures&)> status;  ///< Asked for by a call.
     std::function<void(const std::string&)> error;                   ///< For log and status.
     PosePublisher::TellLoss loss;                                    ///< For the log.
+    std::function<void(const std::string&)> remark;                  ///< For the log.
 };
 
 /// Everything that the core thread does, in the order that it is given: packets to the tracker,
@@ -57,7 +58,8 @@ struct SessionOutputs {
 class TrackerSession {
  public:
     /// `stored`: what a former run left. Its objects come back with their ids, and go on from their
-    /// last poses (Tracker::resume). `models` are registered where no object of that name is there.
+    /// last poses (Tracker::resume). `models` are registered where no object of that name is there;
+    /// what the store holds otherwise than they and the tracker's settings are is remarked.
     /// What cannot be restored is told to outputs.error and left out.
     TrackerSession(Tracker tracker, ServiceIdentity identity, std::optional<StoredState> stored,
                    const std::vector<Registration>& models, Clock& clock, SessionOutputs outputs);
@@ -78,6 +80,7 @@ class TrackerSession {
 
  private:
     void restore(const StoredState& stored);
+    void register_models(const std::vector<Registration>& models, const Settings& configured);
     void changed(const v1::TrackerCall& call);
     void note_busy(std::int64_t busy_ns, std::int64_t t_before_us);
 

@@ -128,6 +128,15 @@ class TrackerCalls(SystemTest):
         self.tracker.kill()
         self.eventually(lambda: shown()[-1] is None, what="it is left out")
 
+    def test_a_model_that_was_changed_in_the_configuration_is_told_of_at_the_start(self):
+        self.tracker.stop()
+        for size_px in 10, 20:
+            model = self.model("one", size_px) + "@100,90,0"
+            self.tracker = self.service("tracker", store=self.store, model=model)
+            said = "model one is as the store has it, not as the configuration: shape"
+            self.assertEqual(said in self.tracker.err(), size_px == 20, self.tracker.err())
+            self.assertEqual(self.tracker.stop(), 0)
+
     def test_a_call_is_refused_with_a_clear_message_when_nobody_is_there(self):
         self.tracker.kill()
         self.ctl("model", "list", "--timeout", 300, code=1)

@@ -15,17 +15,19 @@ namespace {
 
 /// A session over what a former run left, and what it said of that.
 struct Restarted {
-    explicit Restarted(const StoredState& stored)
-        : session(Tracker::create({}).value(), {}, stored, {}, clock,
+    explicit Restarted(const StoredState& stored, const std::vector<Registration>& models = {})
+        : session(Tracker::create({}).value(), {}, stored, models, clock,
                   {[this](v1::ObjectPose&) { return takes; }, [](v1::PoseTrack&) { return true; },
                    [this](v1::RegisteredModel&) { return takes; },
                    [this](v1::TrackerSettings&) { return takes; },
                    [](const SessionFigures&) { return v1::TrackerStatus(); },
                    [this](const std::string& message) { errors.push_back(message); },
-                   [](const PoseRecord&) {}}) {}
+                   [](const PoseRecord&) {},
+                   [this](const std::string& message) { remarks.push_back(message); }}) {}
 
     ManualClock clock;
     std::vector<std::string> errors;
+    std::vector<std::string> remarks;
     bool takes = true;  ///< Whether the middleware takes what is written.
     TrackerSession session;
 };
@@ -88,6 +90,22 @@ TEST(TrackerSession, leaves_where_an_object_was_registered_as_it_was) {
     const StoredState now = restarted.session.stored_state();
     ASSERT_EQ(now.objects.size(), 1U);
     EXPECT_EQ(now.objects[0].object.start.pose.t_px, Eigen::Vector2d(50, 60));
+}
+
+TEST(TrackerSession, says_where_the_store_holds_something_else_than_the_configuration) {
+    StoredState stored = tracked_at(pose_of(100, 90, 1));
+    stored.objects[0].object.parameters = Tracker::create({}).value().settings().new_objects;
+    Registration arrow;
+    arrow.shape = test::arrow();
+    arrow.start.pose = pose_of(50, 60, 0.5);
+    EXPECT_TRUE(Restarted(stored, {arrow}).remarks.empty());
+    arrow.start.pose = pose_of(51, 60, 0.5);
+    stored.settings.parameters = {{"gate_px", 0.5}};
+    const Restarted restarted(stored, {arrow});
+    ASSERT_EQ(restarted.remarks.size(), 2U);
+    EXPECT_THAT(restarted.remarks[0], testing::HasSubstr("gate_px 0.5 instead of "));
+    EXPECT_THAT(restarted.remarks[1], testing::HasSubstr("model arrow is as the store has it"));
+    EXPECT_THAT(restarted.remarks[1], testing::HasSubstr("start"));
 }
 
 TEST(TrackerSession, has_nothing_new_to_store_before_the_first_packet) {
