@@ -21,6 +21,13 @@ class LatencyHistogram {
         max_us_ = std::max(max_us_, us);
     }
 
+    /// Those of another.
+    void add(const LatencyHistogram& other) {
+        for (std::size_t i = 0; i < buckets_.size(); ++i) buckets_[i] += other.buckets_[i];
+        samples_ += other.samples_;
+        max_us_ = std::max(max_us_, other.max_us_);
+    }
+
     [[nodiscard]] std::uint64_t samples() const { return samples_; }
     [[nodiscard]] double max_us() const { return static_cast<double>(max_us_); }
 

@@ -42,7 +42,7 @@ void PosePublisher::pose(const PoseRecord& record) {
         return;
     }
     ++poses_;
-    latency_.add((clock_.realtime_ns() - packet_host_time_ns_) / 1000);
+    latency_.add((clock_.realtime_ns() - packet_host_time_ns_) / 1000, clock_.steady_ns());
 }
 
 void PosePublisher::see_loss(const PoseRecord& record, Object& object) {

@@ -9,7 +9,7 @@
 #include "poses.h"
 #include "services/common/clock.hpp"
 #include "services/tracker/core/pose_record.hpp"
-#include "services/tracker/latency_histogram.hpp"
+#include "services/tracker/latency_window.hpp"
 
 namespace pursuit::tracker {
 
@@ -29,7 +29,7 @@ class PosePublisher final : public PoseSink {
 
     /// Of the packet whose events come next: the host time of its base time.
     void packet(std::int64_t base_time_us, std::int64_t host_time_ns);
-    /// Latencies are those of one stream.
+    /// Latencies are those of one stream, of its last 5 to 10 s.
     void begin_stream() { latency_.clear(); }
     /// The object is gone; what was gathered of it is sent.
     void forget(std::uint32_t object_id);
@@ -44,7 +44,7 @@ class PosePublisher final : public PoseSink {
     }
     [[nodiscard]] std::uint64_t poses() const { return poses_; }
     [[nodiscard]] std::uint64_t failures() const { return failures_; }
-    [[nodiscard]] const LatencyHistogram& latency() const { return latency_; }
+    [[nodiscard]] LatencyHistogram latency() const { return latency_.both(); }
     /// How many objects were in this state in their last pose.
     [[nodiscard]] std::uint32_t objects_in(TrackState state) const;
 
@@ -74,7 +74,7 @@ class PosePublisher final : public PoseSink {
     v1::ObjectPose sample_;  // kept: 700 bytes a pose
     std::uint64_t poses_ = 0;
     std::uint64_t failures_ = 0;
-    LatencyHistogram latency_;
+    LatencyWindow latency_;
 };
 
 }  // namespace pursuit::tracker

@@ -198,7 +198,7 @@ SessionFigures TrackerSession::figures() const {
     figures.objects_tracking = publisher_.objects_in(TrackState::tracking);
     figures.objects_lost = publisher_.objects_in(TrackState::lost);
     figures.busy_fraction = busy_fraction_;
-    const auto& latency = publisher_.latency();
+    const auto latency = publisher_.latency();
     figures.latency.p50_us(latency.percentile_us(0.5));
     figures.latency.p90_us(latency.percentile_us(0.9));
     figures.latency.p99_us(latency.percentile_us(0.99));

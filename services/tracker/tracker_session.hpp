@@ -38,7 +38,7 @@ struct SessionFigures {
     std::uint32_t objects_tracking = 0;
     std::uint32_t objects_lost = 0;
     double busy_fraction = 0;  ///< Processing time over event time, about the last second.
-    v1::Percentiles latency;   ///< Of the poses of this stream.
+    v1::Percentiles latency;   ///< Of the last 5 to 10 s of this stream's poses.
 };
 
 /// Where a session's output goes. The writers say whether a sample was taken.

@@ -153,7 +153,7 @@ void add_rates(Report& report, const RecordedRun& run) {
     report.curves.push_back(std::move(curve));
     if (!run.tracker) return;
     const auto& latency = run.tracker->latency();
-    report.latencies.push_back({"packet's pacing instant to its poses", latency.p50_us(),
+    report.latencies.push_back({"packet's pacing instant to its poses, last 10 s", latency.p50_us(),
                                 latency.p90_us(), latency.p99_us(), latency.max_us(),
                                 latency.samples()});
 }

@@ -124,5 +124,22 @@ TEST(PosePublisher, counts_a_track_that_could_not_be_written_as_a_failure) {
     EXPECT_EQ(published.tracks.size(), 1U);
 }
 
+TEST(PosePublisher, says_of_a_stall_no_more_once_ten_seconds_of_poses_have_passed) {
+    constexpr std::int64_t s_ns = 1'000'000'000;
+    ManualClock clock(3 * s_ns, 3 * s_ns);
+    PosePublisher publisher(
+        1, clock, [](v1::ObjectPose&) { return true; }, [](v1::PoseTrack&) { return true; },
+        [](const PoseRecord&) {});
+    publisher.packet(0, 0);
+    publisher.pose({});
+    EXPECT_EQ(publisher.latency().max_us(), 3e6);
+    for (int second = 1; second <= 12; ++second) {
+        clock.advance(s_ns);
+        publisher.packet(0, clock.realtime_ns());
+        publisher.pose({});
+    }
+    EXPECT_EQ(publisher.latency().max_us(), 0);
+}
+
 }  // namespace
 }  // namespace pursuit::tracker
