@@ -10,16 +10,22 @@ constexpr std::size_t most_map_cells = 100'000;
 constexpr int along_step = 3;
 constexpr int aslant_step = 4;
 
+int cells(int length_px, int cell_px) { return (length_px + cell_px - 1) / cell_px; }
+
 }  // namespace
 
-void FiredMap::build(Geometry geometry, std::span<const Event> events) {
+int FiredMap::cell_px_of(Geometry geometry) {
     int cell_px = 1;
-    const auto cells = [](int length_px, int cell) { return (length_px + cell - 1) / cell; };
     while (static_cast<std::size_t>(cells(geometry.width, cell_px)) *
                static_cast<std::size_t>(cells(geometry.height, cell_px)) >
            most_map_cells) {
         ++cell_px;
     }
+    return cell_px;
+}
+
+void FiredMap::build(Geometry geometry, std::span<const Event> events) {
+    const int cell_px = cell_px_of(geometry);
     cell_px_ = cell_px;
     columns_ = cells(geometry.width, cell_px);
     rows_ = cells(geometry.height, cell_px);
@@ -88,6 +94,17 @@ void FiredMap::add_up() {
                        above[x].squared + of_row.squared};
         }
     }
+}
+
+FiredMap::Cells FiredMap::cells_near(double x_px, double y_px, double reach_px) const {
+    const auto within = [&](double px, int cells_there) {
+        return static_cast<int>(std::clamp<double>(px / cell_px_, 0, cells_there));
+    };
+    const auto end = [&](double px, int cells_there) {
+        return px < 0 ? 0 : std::min(within(px, cells_there) + 1, cells_there);
+    };
+    return {within(x_px - reach_px, columns_), within(y_px - reach_px, rows_),
+            end(x_px + reach_px, columns_), end(y_px + reach_px, rows_)};
 }
 
 void FiredMap::copy_row(int row, int column, std::span<std::uint8_t> to) const {

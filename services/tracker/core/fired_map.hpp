@@ -17,6 +17,8 @@ class FiredMap {
     static constexpr int farthest = 21;
 
     void build(Geometry geometry, std::span<const Event> events);
+    /// How many pixels wide and high the cells of an image of this geometry are.
+    [[nodiscard]] static int cell_px_of(Geometry geometry);
 
     [[nodiscard]] double cell_px() const { return cell_px_; }
     [[nodiscard]] int columns() const { return columns_; }
@@ -29,6 +31,17 @@ class FiredMap {
         if (x < 0 || y < 0 || x >= width_ || y >= height_) return farthest;
         return distance_[at(x, y)];
     }
+
+    /// From the left and the top on, up to before the right and the bottom.
+    struct Cells {
+        int left = 0;
+        int top = 0;
+        int right = 0;
+        int bottom = 0;
+    };
+    /// The image's cells in the square of this reach about a place: where shapes may be larger than
+    /// it, there are many others, and none of them has fired.
+    [[nodiscard]] Cells cells_near(double x_px, double y_px, double reach_px) const;
 
     /// The distances of cells in a row, from this one on.
     void copy_row(int row, int column, std::span<std::uint8_t> to) const;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "services/tracker/core/drawn_contour.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
@@ -56,25 +58,10 @@ ShapeSearch::ShapeSearch(const Contour& contour, const Outline& outline)
 }
 
 void ShapeSearch::draw() {
-    constexpr double step_px = 0.5;
     constexpr double margin_px = near_it_px + 2;
-    std::vector<Event> fired;
     drawn_from_px_.setConstant(-radius_px_ - margin_px);
-    for (const Piece& piece : pieces_) {
-        const Eigen::Vector2d a(piece.ax, piece.ay);
-        const Eigen::Vector2d along(piece.bx - piece.ax, piece.by - piece.ay);
-        const int steps = static_cast<int>(std::ceil(along.norm() / step_px));
-        for (int i = 0; i <= steps; ++i) {
-            const Eigen::Vector2d p =
-                a + static_cast<double>(i) / std::max(steps, 1) * along - drawn_from_px_;
-            Event event{};
-            event.x = static_cast<std::uint16_t>(std::lround(p.x()));
-            event.y = static_cast<std::uint16_t>(std::lround(p.y()));
-            fired.push_back(event);
-        }
-    }
     const auto side = static_cast<std::uint16_t>(std::ceil(2 * (radius_px_ + margin_px)) + 1);
-    drawn_.build({side, side}, fired);
+    drawn_.build({side, side}, drawn_contour(pieces_, drawn_from_px_, {side, side}));
 }
 
 // At equal distances along the contour.
@@ -210,12 +197,11 @@ ShapeSearch::Fired ShapeSearch::fired_near(const Pose& pose) {
     const Eigen::Matrix2d model_from_image = pose.a.inverse();
     const double cell_px = map_->cell_px();
     const double reach_px = pose.a.norm() * radius_px_ + near_it_px;
-    const Eigen::Vector2d first = (pose.t_px.array() - reach_px) / cell_px;
-    const Eigen::Vector2d last = (pose.t_px.array() + reach_px) / cell_px;
+    const FiredMap::Cells near = map_->cells_near(pose.t_px.x(), pose.t_px.y(), reach_px);
     const auto thirds = [&](double px) { return 3 * px / drawn_.cell_px(); };
     Fired fired;
-    for (int row = static_cast<int>(first.y()); row <= last.y(); ++row) {
-        for (int column = static_cast<int>(first.x()); column <= last.x(); ++column) {
+    for (int row = near.top; row < near.bottom; ++row) {
+        for (int column = near.left; column < near.right; ++column) {
             if (map_->distance(column, row) != 0) continue;
             const Eigen::Vector2d p((column + 0.5) * cell_px - 0.5, (row + 0.5) * cell_px - 0.5);
             const Eigen::Vector2d m =

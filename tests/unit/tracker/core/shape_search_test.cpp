@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "services/tracker/core/drawn_contour.hpp"
 #include "services/tracker/core/tracker.hpp"
 #include "services/tracker/core/where_to_look.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
@@ -105,6 +106,77 @@ TEST(FiredMap, of_a_large_image_has_cells_of_several_pixels) {
     map.build({1280, 720}, std::vector<Event>{{0, 1279, 719, 1}});
     EXPECT_LE(map.columns() * map.rows(), 100'000);
     EXPECT_EQ(map.distance(map.columns() - 1, map.rows() - 1), 0);
+}
+
+TEST(FiredMap, has_no_more_cells_near_a_place_than_the_image_has) {
+    FiredMap map;
+    map.build(small_sensor, std::vector<Event>{{0, 10, 10, 1}});
+    const auto expect_cells = [&](double x_px, double y_px, double reach_px, int left, int top,
+                                  int right, int bottom) {
+        const FiredMap::Cells near = map.cells_near(x_px, y_px, reach_px);
+        EXPECT_EQ(near.left, left) << x_px << " " << reach_px;
+        EXPECT_EQ(near.top, top) << x_px << " " << reach_px;
+        EXPECT_EQ(near.right, right) << x_px << " " << reach_px;
+        EXPECT_EQ(near.bottom, bottom) << x_px << " " << reach_px;
+    };
+    expect_cells(100, 90.5, 10, 90, 80, 111, 101);
+    expect_cells(2, 238, 10, 0, 228, 13, 240);
+    // As large as a shape's extent and scale can be.
+    expect_cells(152, 120, 580'000, 0, 0, 304, 240);
+    expect_cells(-99'000, 120, 100'000, 0, 0, 304, 240);
+    for (const double beyond_px : {-500.0, 800.0, 1e300}) {
+        const FiredMap::Cells near = map.cells_near(beyond_px, 120, 10);
+        EXPECT_GE(near.left, near.right) << beyond_px;
+    }
+}
+
+TEST(DrawnContour, is_drawn_in_every_cell_that_it_crosses_once) {
+    const Shape arrow = test::arrow();
+    const std::vector<Piece> pieces = Contour(arrow).pieces().pieces();
+    const auto drawn = drawn_contour(pieces, {-100, -100}, {201, 201});
+    FiredMap map;
+    map.build({201, 201}, drawn);
+    EXPECT_EQ(drawn.size(), static_cast<std::size_t>(map.around(100, 100, 200).fired));
+    for (const Piece& piece : pieces) {
+        for (double at = 0; at <= 1; at += 0.1) {
+            const double x = piece.ax + at * (piece.bx - piece.ax) + 100;
+            const double y = piece.ay + at * (piece.by - piece.ay) + 100;
+            EXPECT_LE(
+                map.distance(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y))),
+                3);
+        }
+    }
+}
+
+TEST(DrawnContour, takes_no_more_steps_and_events_of_a_very_long_one_than_its_cells_need) {
+    std::mt19937 random(1);
+    std::vector<Piece> pieces;
+    double length_px = 0;
+    const auto anywhere_px = [&] { return static_cast<double>(random() % 8000) - 4000; };
+    for (int i = 0; i < 4096; ++i) {
+        pieces.push_back({anywhere_px(), anywhere_px(), anywhere_px(), anywhere_px()});
+        length_px += std::hypot(pieces[i].bx - pieces[i].ax, pieces[i].by - pieces[i].ay);
+    }
+    constexpr Geometry geometry{8001, 8001};
+    const auto drawn = drawn_contour(pieces, {-4000, -4000}, geometry);
+    EXPECT_LE(drawn.size(), 100'000U);
+    const int cell_px = FiredMap::cell_px_of(geometry);
+    EXPECT_LT(length_px / drawing_step_px(length_px, cell_px), 2e6);
+    // As finely as ever where that is no trouble.
+    EXPECT_EQ(drawing_step_px(20'000, cell_px), 0.5);
+    // And without gaps.
+    const auto some = std::span(pieces).first(40);
+    FiredMap map;
+    map.build(geometry, drawn_contour(some, {-4000, -4000}, geometry));
+    EXPECT_LT(map.around(map.columns() / 2, map.rows() / 2, map.columns()).fired, 30'000);
+    for (const Piece& piece : some) {
+        for (double at = 0; at <= 1; at += 0.001) {
+            const double x = piece.ax + at * (piece.bx - piece.ax) + 4000;
+            const double y = piece.ay + at * (piece.by - piece.ay) + 4000;
+            EXPECT_LE(map.distance(static_cast<int>(x / cell_px), static_cast<int>(y / cell_px)),
+                      3);
+        }
+    }
 }
 
 TEST(ShapeSearch, finds_a_shape_at_any_place_angle_and_size) {
