@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core/acquisition.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +12,8 @@ constexpr double narrowest_gate_px = 4;
 // Events come late by up to so much, and at a speed that is a distance.
 constexpr double late_s = 150e-6;
 constexpr double gate_per_residual = 3;
+// What begins near the object has no need to become more than twice as large or as unequal.
+constexpr double most_growth = 2;
 
 // Coarser than for tracking: what counts is to arrive.
 ObjectParameters arriving(ObjectParameters parameters) {
@@ -35,12 +38,24 @@ Acquisition::Acquisition(TransformKind transform, const Contour& contour,
       cover_(contour) {}
 
 void Acquisition::begin(const Pose& pose, double gate_px) {
+    began_at_ = pose;
+    began_gate_px_ = gate_px;
+    began_from_a_ = pose.a.inverse();
     estimator_->restart(pose, {});
     health_.restart();
     cover_.restart();
     residual_px_ = gate_px / gate_per_residual;
     narrow_px_ = narrowest_gate_px;
     set_gate(gate_px);
+}
+
+bool Acquisition::keeps_its_form() const {
+    const Eigen::Matrix2d grown = estimator_->pose().a * began_from_a_;
+    const double area = grown.determinant();
+    constexpr double most_area = most_growth * most_growth;
+    // ‖·‖²/area is κ + 1/κ of the singular values' ratio κ. (What is no number is out of bounds.)
+    return area >= 1 / most_area && area <= most_area &&
+           grown.squaredNorm() <= (most_growth + 1 / most_growth) * area;
 }
 
 void Acquisition::set_gate(double gate_px) {
@@ -59,6 +74,10 @@ const Approach* Acquisition::approach(const Event& event) {
 
 void Acquisition::take() {
     estimator_->take(1);
+    if (!keeps_its_form()) {
+        begin(began_at_, began_gate_px_);
+        return;
+    }
     if (distance_px_ < narrow_px_) {
         const bool is_sharp = distance_px_ < narrow_px_ / 4;
         health_.count(is_sharp ? 1 : 0, 1, t_us_);

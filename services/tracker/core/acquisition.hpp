@@ -9,6 +9,7 @@ namespace pursuit::tracker {
 
 /// Finds an object near a pose that is many pixels off: the descent with a gate as wide as its
 /// residuals are large, pulling along the whole contour. Done when what comes lies on the contour.
+/// Events of something else may draw the shape out of all proportion: then it begins again.
 class Acquisition {
  public:
     explicit Acquisition(const RegisteredObject& object);
@@ -37,6 +38,8 @@ class Acquisition {
     static constexpr double widest_gate_px = 30;
 
     void set_gate(double gate_px);
+    /// Whether it is still about as large and as wide to its height as it began.
+    [[nodiscard]] bool keeps_its_form() const;
 
     ObjectParameters parameters_;
     std::unique_ptr<Estimator> estimator_;
@@ -49,6 +52,9 @@ class Acquisition {
     double distance_px_ = 0;
     double residual_px_ = 0;
     double narrow_px_ = 0;  // the gate of what has arrived
+    Pose began_at_;
+    double began_gate_px_ = 0;
+    Eigen::Matrix2d began_from_a_ = Eigen::Matrix2d::Identity();  // the inverse of A as it began
 };
 
 }  // namespace pursuit::tracker

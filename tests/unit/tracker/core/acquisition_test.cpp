@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -67,6 +68,31 @@ TEST(Acquisition, does_not_take_what_lies_that_far_off_for_its_own_when_it_stand
     for (std::uint32_t seed = 0; seed < 10; ++seed) {
         EXPECT_FALSE(follow(pose_of(152, 120, 1), late_events(trembling, 0, 0.1, seed)).is_done())
             << seed;
+    }
+}
+
+TEST(Acquisition, is_not_drawn_out_of_all_proportion_by_what_else_goes_by) {
+    // A line that sweeps over the image, and noise.
+    for (const TransformKind kind :
+         {TransformKind::similarity, TransformKind::paper_affine, TransformKind::full_affine}) {
+        const Pose start = pose_of(152, 120, 0.3, 1, kind == TransformKind::similarity ? 1 : 0.8);
+        Acquisition acquisition(kind, Contour(test::ring("ring", 100, 32)), {});
+        acquisition.begin(start);
+        std::mt19937 random(1);
+        for (std::int64_t t_us = 0; t_us < 60'000; t_us += 2) {
+            Event event{t_us, static_cast<std::uint16_t>(random() % small_sensor.width),
+                        static_cast<std::uint16_t>(random() % small_sensor.height), 1};
+            if (t_us % 4 == 0) {
+                event.x = static_cast<std::uint16_t>(t_us / 1000 % small_sensor.width);
+            }
+            if (acquisition.approach(event) != nullptr) acquisition.take();
+            const Eigen::Matrix2d grown = acquisition.pose().a * start.a.inverse();
+            const double most = largest_scale(grown);
+            const double least = grown.determinant() / most;
+            ASSERT_GT(least, 0.35) << to_string(kind) << " " << t_us;
+            ASSERT_LT(most, 2.85) << to_string(kind) << " " << t_us;
+            ASSERT_LT(most / least, 2.01) << to_string(kind) << " " << t_us;
+        }
     }
 }
 
