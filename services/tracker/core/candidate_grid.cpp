@@ -12,6 +12,9 @@ namespace {
 constexpr double most_cells = 65536;
 // What a bound must be passed by to be passed: places on a cell's rim may be rounded into it.
 constexpr double hair = 1e-8;
+// Where scales are more unequal than this, lists hardly shrink from a square to its quarters.
+constexpr double very_unequal = 2;
+constexpr std::size_t most_per_cell_of_unequal = 4;
 
 double squared(const Place& l, const Place& r) {
     return (l.x - r.x) * (l.x - r.x) + (l.y - r.y) * (l.y - r.y);
@@ -26,7 +29,8 @@ Place foot(const Piece& piece, const Place& place) {
 }  // namespace
 
 /// Quarters a square of cells down to one, passing on only the pieces that can still be the nearest
-/// from somewhere in it.
+/// from somewhere in it. What lists too many for its cells stays whole: its quarters would list
+/// nearly all of them again (most_per_cell).
 ///
 /// A piece cannot where a place of another piece is nearer from everywhere in the square. For a
 /// place o of another and each place p of the piece that is so when it is so from the square's
@@ -38,6 +42,8 @@ Place foot(const Piece& piece, const Place& place) {
 ///    still.
 struct CandidateGrid::Divider {
     CandidateGrid& grid;
+    std::size_t most_a_cell =
+        grid.anisotropy_ > very_unequal ? most_per_cell_of_unequal : most_per_cell;
     std::vector<std::uint16_t> last_list = {};
     Cell last_cell = {};
 
@@ -88,15 +94,44 @@ struct CandidateGrid::Divider {
             }
             if (!is_beaten) kept.push_back(candidates[i]);
         }
+        const int half = size / 2;
         if (size == 1 || kept.size() == 1) {
             fill(column, row, size, kept);
             return;
         }
-        const int half = size / 2;
+        const auto cells_of_quarter = static_cast<std::size_t>(half) * half;
+        if (kept.size() > most_a_cell * cells_of_quarter) {
+            fill_near(column, row, size, kept);
+            return;
+        }
         divide(column, row, half, kept, depth + 1);
         divide(column + half, row, half, kept, depth + 1);
         divide(column, row + half, half, kept, depth + 1);
         divide(column + half, row + half, half, kept, depth + 1);
+    }
+
+    /// What is beyond the reach in a square that stays whole is empty as ever.
+    void fill_near(int column, int row, int size, const List& kept) {
+        const double half_px = 1 / grid.cells_per_px_ / 2 * (1 + hair) + hair;
+        const double beyond_px = grid.reach_px_ + half_px * std::sqrt(2.0);
+        const Cell cell = cell_of(kept);
+        // Mostly what was near the last cell is near the next one as well.
+        std::uint16_t near = kept.front();
+        for (int y = row; y < std::min(row + size, grid.rows_); ++y) {
+            for (int x = column; x < std::min(column + size, grid.columns_); ++x) {
+                const Place centre{grid.left_px_ + (x + 0.5) / grid.cells_per_px_,
+                                   grid.top_px_ + (y + 0.5) / grid.cells_per_px_};
+                const auto is_near = [&](std::uint16_t i) {
+                    return squared(foot(grid.pieces_[i], centre), centre) <= beyond_px * beyond_px;
+                };
+                if (!is_near(near)) {
+                    const auto found = std::find_if(kept.begin(), kept.end(), is_near);
+                    if (found == kept.end()) continue;
+                    near = *found;
+                }
+                put(x, y, cell);
+            }
+        }
     }
 
     static View view(const Piece& piece, const Square& square) {
@@ -139,11 +174,15 @@ struct CandidateGrid::Divider {
         const Cell cell = cell_of(kept);
         for (int y = row; y < std::min(row + size, grid.rows_); ++y) {
             for (int x = column; x < std::min(column + size, grid.columns_); ++x) {
-                const std::size_t at = grid.place_of(x, y);
-                grid.cells_[at] = cell;
-                grid.is_within_[at / 64] |= std::uint64_t{1} << (at % 64);
+                put(x, y, cell);
             }
         }
+    }
+
+    void put(int column, int row, const Cell& cell) {
+        const std::size_t at = grid.place_of(column, row);
+        grid.cells_[at] = cell;
+        grid.is_within_[at / 64] |= std::uint64_t{1} << (at % 64);
     }
 
     Cell cell_of(const List& kept) {
@@ -174,6 +213,12 @@ CandidateGrid::CandidateGrid(std::vector<Piece> pieces, double finest_cell_px)
 CandidateGrid::CandidateGrid(std::vector<Piece> pieces, double reach_px, double anisotropy)
     : CandidateGrid(std::move(pieces)) {
     build(reach_px, anisotropy);
+}
+
+void CandidateGrid::forget() {
+    reach_px_ = -1;
+    anisotropy_ = 0;
+    end_column_ = end_row_ = 0;
 }
 
 void CandidateGrid::build(double reach_px, double anisotropy) {

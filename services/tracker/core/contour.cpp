@@ -11,6 +11,10 @@ namespace {
 
 // The grid is built for somewhat more than asked, so that it is not built again at once.
 constexpr double spare = 1.25;
+// What was built for more than so many times of what is needed has had its time. (Acquisitions go
+// up to twice as unequal as they begin, and their gates differ by eight.)
+constexpr double excess_anisotropy = 4;
+constexpr double excess_reach = 32;
 // Equal scales need no room for unequal ones, but for what rounding makes of them.
 constexpr double equal_scales = 1 + 1e-6;
 
@@ -18,6 +22,20 @@ constexpr double equal_scales = 1 + 1e-6;
 constexpr double cells_of_piece = 0.4;
 constexpr double finest_cells_px = 0.25;
 constexpr double coarsest_cells_px = 1.5;
+
+struct Need {
+    double anisotropy;
+    double reach_px;  // model frame
+};
+
+Need need_of(const Eigen::Matrix2d& a, double reach_px) {
+    const double norm2 = a.squaredNorm();
+    const double determinant = std::abs(a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
+    const double sum = std::sqrt(norm2 + 2 * determinant);
+    const double difference = std::sqrt(std::max(0.0, norm2 - 2 * determinant));
+    const double smallest = std::max((sum - difference) / 2, 1e-3);
+    return {(sum + difference) / 2 / smallest, reach_px / smallest};
+}
 
 /// Whether each point is the end of two edges.
 bool is_closed(const Shape& shape) {
@@ -75,17 +93,22 @@ Contour::Contour(const Shape& given) {
 }
 
 void Contour::build_for(CandidateGrid& grid, const Eigen::Matrix2d& a, double reach_px) {
-    const double norm2 = a.squaredNorm();
-    const double determinant = std::abs(a(0, 0) * a(1, 1) - a(0, 1) * a(1, 0));
-    const double sum = std::sqrt(norm2 + 2 * determinant);
-    const double difference = std::sqrt(std::max(0.0, norm2 - 2 * determinant));
-    const double smallest = std::max((sum - difference) / 2, 1e-3);
-    const double anisotropy = (sum + difference) / 2 / smallest;
-    if (anisotropy <= grid.anisotropy() && reach_px / smallest <= grid.reach_px()) return;
-    const double built_for = anisotropy <= grid.anisotropy() ? grid.anisotropy()
-                             : anisotropy < equal_scales     ? equal_scales
-                                                             : anisotropy * spare;
-    grid.build(std::max(grid.reach_px(), reach_px / smallest * spare), built_for);
+    const Need need = need_of(a, reach_px);
+    if (need.anisotropy <= grid.anisotropy() && need.reach_px <= grid.reach_px()) return;
+    const double built_for = need.anisotropy <= grid.anisotropy() ? grid.anisotropy()
+                             : need.anisotropy < equal_scales     ? equal_scales
+                                                                  : need.anisotropy * spare;
+    grid.build(std::max(grid.reach_px(), need.reach_px * spare), built_for);
+}
+
+void Contour::forget_excess(const Eigen::Matrix2d& a, double reach_px) {
+    const Need need = need_of(a, reach_px);
+    for (CandidateGrid* const grid : {&points_, &pieces_}) {
+        if (grid->anisotropy() > excess_anisotropy * need.anisotropy ||
+            grid->reach_px() > excess_reach * need.reach_px) {
+            grid->forget();
+        }
+    }
 }
 
 }  // namespace pursuit::tracker

@@ -28,6 +28,11 @@ class Contour {
     /// The same for lookups of points.
     void fit_points(const Eigen::Matrix2d& a, double reach_px) { fit(points_, a, reach_px); }
 
+    /// Where A needs far less than lookups are good for, they are built anew by the next fit():
+    /// what finds the nearest under scales that differ much, or in a tiny image of the shape, is
+    /// slow.
+    void forget_excess(const Eigen::Matrix2d& a, double reach_px);
+
     [[nodiscard]] const CandidateGrid& points() const { return points_; }
     [[nodiscard]] const CandidateGrid& pieces() const { return pieces_; }
     /// The pieces that end at this point, one at least.

@@ -28,6 +28,7 @@ template <TransformKind kind>
 void GradientEstimator<kind>::restart(const Pose& pose, const Velocity&) {
     pose_ = pose;
     measure_extent();
+    contour_.forget_excess(pose.a, parameters_.gate_px);
     lay_out();
     slope_.restart();
     turned_rad_ = 0;

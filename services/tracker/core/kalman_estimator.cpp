@@ -76,6 +76,7 @@ void KalmanEstimator<kind>::restart(const Pose& pose, const Velocity& velocity) 
         lay_out();
     } else {
         // Of the rest the first event says how large it is.
+        contour_.forget_excess(pose.a, Clutter::far_to_px + lay_out_spare_px);
         contour_.fit(pose.a, Clutter::far_to_px + lay_out_spare_px);
         sampled_for_area_ = 0;
     }

@@ -108,6 +108,42 @@ INSTANTIATE_TEST_SUITE_P(EveryTransform, Nearest,
                                          TransformKind::paper_affine, TransformKind::full_affine),
                          [](const auto& kind) { return std::string(to_string(kind.param)); });
 
+/// Ten times as wide as high, or the other way round.
+Eigen::Matrix2d stretched() { return Eigen::Vector2d(3, 0.3).asDiagonal(); }
+
+TEST(NearestPiece, lists_no_more_than_so_many_a_cell_however_unequal_the_scales) {
+    for (const int points : {40, 400}) {
+        Contour contour(test::ring("ring", 60, points));
+        contour.fit(stretched(), 8);
+        contour.fit_points(stretched(), 8);
+        for (const CandidateGrid* grid : {&contour.points(), &contour.pieces()}) {
+            EXPECT_LE(grid->listed(), CandidateGrid::most_per_cell * grid->cells()) << points;
+        }
+    }
+}
+
+TEST(NearestPiece, is_as_exact_under_very_unequal_scales) {
+    constexpr double reach_px = 8;
+    Contour contour(test::ring("ring", 60, 400));
+    contour.fit(stretched(), reach_px);
+    const CandidateGrid& pieces = contour.pieces();
+    const ImageMetric metric(stretched());
+    Random random(9);
+    int found = 0;
+    for (int i = 0; i < 5'000; ++i) {
+        const double x = random.between(-70, 70);
+        const double y = random.between(-90, 90);
+        const auto expected = brute_force(pieces.pieces(), x, y, metric);
+        const auto nearest = pieces.nearest(x, y, metric);
+        if (expected.squared_px > reach_px * reach_px) continue;
+        ++found;
+        ASSERT_EQ(nearest.piece, expected.piece);
+        ASSERT_EQ(nearest.squared_px, expected.squared_px);
+        ASSERT_EQ(nearest.foot, expected.foot);
+    }
+    EXPECT_GT(found, 500);
+}
+
 template <TransformKind k>
 struct Of {
     static constexpr TransformKind kind = k;
@@ -219,6 +255,34 @@ TEST(Contour, names_the_pieces_that_end_at_each_point) {
     }
     EXPECT_EQ(contour.pieces_at(4).size(), 3);
     EXPECT_EQ(contour.pieces_at(5).size(), 1);
+}
+
+TEST(Contour, is_laid_out_anew_where_what_it_was_built_for_is_far_more_than_needed) {
+    constexpr double reach_px = 8;
+    const Eigen::Matrix2d equal = Eigen::Matrix2d::Identity();
+    for (const Eigen::Matrix2d& before : {stretched(), Eigen::Matrix2d(0.02 * equal)}) {
+        Contour contour(test::arrow());
+        contour.fit(before, reach_px);
+        contour.fit_points(before, reach_px);
+        contour.forget_excess(equal, reach_px);
+        EXPECT_EQ(contour.pieces().nearest(0, 0, ModelMetric()).piece, -1);
+        contour.fit(equal, reach_px);
+        contour.fit_points(equal, reach_px);
+        for (const CandidateGrid* grid : {&contour.points(), &contour.pieces()}) {
+            EXPECT_LT(grid->anisotropy(), 1.01);
+            EXPECT_LT(grid->reach_px(), 2 * reach_px);
+        }
+    }
+}
+
+TEST(Contour, stays_as_it_is_laid_out_for_little_more_than_needed) {
+    Contour contour(test::arrow());
+    const Eigen::Matrix2d wider = Eigen::Vector2d(1.4, 0.8).asDiagonal();
+    contour.fit(wider, 30);
+    const double anisotropy = contour.pieces().anisotropy();
+    contour.forget_excess(Eigen::Matrix2d::Identity(), 4);
+    contour.fit(Eigen::Matrix2d::Identity(), 4);
+    EXPECT_EQ(contour.pieces().anisotropy(), anisotropy);
 }
 
 TEST(Contour, keeps_a_point_that_no_edge_touches) {
