@@ -40,7 +40,9 @@ class PoseGrid {
     double period_us_;
     double rate_hz_;
     double max_poses_per_s_;
+    double present_hz_;  // in a silence less
     std::int64_t next_k_ = 0;
+    std::int64_t count_ = 0;  // of the grid times, from the k of the first
     std::int64_t next_us_ = none;
     std::int64_t last_event_us_ = 0;
 };

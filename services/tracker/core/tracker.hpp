@@ -34,8 +34,10 @@ namespace pursuit::tracker {
 ///    In a silence 1024 calls wait; more are refused, and identical ones with them.
 ///  - Before the first event of a stream there are no records. Where no event at all comes, the
 ///    grid is kept for 1 s, then thinned to 10 Hz up to 60 s, then to 1 Hz up to an hour, and then
-///    there are none until an event comes: a jump in time makes at most 5200 records an object.
-///  - Beyond max_poses_per_s every object keeps an even share of the grid; the rest is counted.
+///    there are none until an event comes: a jump in time makes a second of the grid and 4130
+///    records more an object at most.
+///  - Beyond max_poses_per_s every object keeps an even share of the grid, thinned or not; the rest
+///    is counted.
 ///
 /// No allocation and no clock call per event. One thread at a time; calls never block.
 class Tracker {
