@@ -72,7 +72,7 @@ struct TrackSnapshot {
     std::uint32_t object_id = 0;
     TrackState state = TrackState::searching;
     bool was_tracked = false;  ///< Whether the three below were ever set.
-    std::int64_t t_us = 0;     ///< When it was last TRACKING.
+    std::int64_t t_us = 0;     ///< Of the pose.
     Pose pose;
     Velocity velocity;
 };

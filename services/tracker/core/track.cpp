@@ -23,7 +23,7 @@ constexpr std::int64_t unstirred_us = 2'000;
 Track::Track(const RegisteredObject& object, const TrackerParameters& tracker) : tracker_(tracker) {
     make_for(object);
     start_ = object.start;
-    begin(start_);
+    begin(start_, object.effective_time_us);
 }
 
 void Track::make_for(const RegisteredObject& object) {
@@ -43,7 +43,7 @@ void Track::make_for(const RegisteredObject& object) {
 }
 
 void Track::replace(const RegisteredObject& object) {
-    const PoseRecord last = record(last_event_t_us_);
+    const PoseRecord last = record(estimated_us());
     make_for(object);
     start_ = object.start;  // as the new transform allows it
     if (former_) former_->last.pose = constrained(former_->last.pose, transform_);
@@ -66,11 +66,13 @@ void Track::restart(const RegisteredObject& object) {
     if (events_used_ > 0) make_for(object);
     start_ = object.start;
     former_.reset();
-    begin(start_);
+    begin(start_, object.effective_time_us);
 }
 
-void Track::begin(const Start& start) {
+void Track::begin(const Start& start, std::int64_t t_us) {
     stir();
+    last_event_t_us_ = 0;
+    placed_us_ = t_us;
     is_searching_ = start.search;
     is_fresh_ = true;
     is_acquiring_ = is_covered_ = is_chased_ = is_adrift_ = has_moved_ = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -166,8 +167,8 @@ class Track {
     };
 
     void make_for(const RegisteredObject& object);
-    /// There, and nothing is known of how it goes.
-    void begin(const Start& start);
+    /// There, at t_us, and nothing is known of how it goes.
+    void begin(const Start& start, std::int64_t t_us);
     /// From former_, with a stream.
     void go_on(std::uint64_t stream_id, std::int64_t first_t_us);
     /// It may be anywhere in the stream that begins, near the last pose rather than elsewhere.
@@ -193,6 +194,12 @@ class Track {
     void give_up(std::int64_t t_us);
     [[nodiscard]] Going going() const;
     [[nodiscard]] Pose coasted(std::int64_t t_us) const;
+    /// What is known last of where it is; coasting on tells no more.
+    [[nodiscard]] Coast known() const;
+    /// Of the estimator's pose.
+    [[nodiscard]] std::int64_t estimated_us() const {
+        return std::max(last_event_t_us_, placed_us_);
+    }
     [[nodiscard]] TrackState state_at(std::int64_t t_us) const;
     /// Where its state is lost.
     [[nodiscard]] LossCause loss_cause() const;
@@ -248,11 +255,12 @@ class Track {
     std::int64_t due_us_ = 0;
     std::int64_t acquired_us_ = never_us;
     std::int64_t doubted_us_ = never_us;  // events spoke against the pose
-    std::int64_t emerged_us_ = -1;     // came out from under another; not yet confirmed by events
-    bool emerges_ = false;             // and was not checked since
-    std::int64_t emerged_at_us_ = -1;  // the last time
-    double distance2_px2_ = 0;         // of the event from the contour, squared
-    std::int64_t last_event_t_us_ = 0;
+    std::int64_t emerged_us_ = -1;      // came out from under another; not yet confirmed by events
+    bool emerges_ = false;              // and was not checked since
+    std::int64_t emerged_at_us_ = -1;   // the last time
+    double distance2_px2_ = 0;          // of the event from the contour, squared
+    std::int64_t last_event_t_us_ = 0;  // 0: the pose has used none
+    std::int64_t placed_us_ = 0;        // the pose was set or moved, by no event
     std::uint64_t events_used_ = 0;
 };
 

@@ -93,7 +93,7 @@ void Track::uncover(std::int64_t t_us) {
         seconds(t_us - grip_lost_us_) * std::hypot(gone.velocity.vx_px_s, gone.velocity.vy_px_s);
     emerged_us_ = t_us;
     emerges_ = true;
-    emerged_at_us_ = t_us;
+    emerged_at_us_ = placed_us_ = t_us;
     estimator_->resume(t_us, gone.pose, gone.velocity, way_px);
     good_.set({t_us, gone.pose, gone.velocity});
 }

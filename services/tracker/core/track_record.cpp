@@ -88,20 +88,24 @@ PoseRecord Track::record(std::int64_t t_us) const {
     return record;
 }
 
+Coast Track::known() const {
+    if (is_covered_) return hidden_way_.last();
+    if (is_acquiring_) return good_.before();
+    PoseRecord now;
+    estimator_->describe(estimated_us(), now);
+    return {estimated_us(), now.pose, now.velocity};
+}
+
 TrackSnapshot Track::snapshot(std::int64_t t_us) const {
     if (former_ && is_fresh_) return former_->last;
     TrackSnapshot snapshot;
     snapshot.object_id = object_id_;
-    snapshot.state = state_at(std::max(t_us, last_event_t_us_));
+    snapshot.state = state_at(std::max(t_us, estimated_us()));
     snapshot.was_tracked = !is_searching_ && (events_used_ > 0 || is_adrift_);
-    snapshot.t_us = is_acquiring_ ? good_.before().t_us : last_event_t_us_;
-    PoseRecord last;
-    estimator_->describe(last_event_t_us_, last);
-    const Coast* coast = is_covered_     ? &hidden_way_.last()
-                         : is_acquiring_ ? &good_.before()
-                                         : nullptr;
-    snapshot.pose = coast ? coast->pose : last.pose;
-    snapshot.velocity = coast ? coast->velocity : last.velocity;
+    const Coast last = known();
+    snapshot.t_us = last.t_us;
+    snapshot.pose = last.pose;
+    snapshot.velocity = last.velocity;
     return snapshot;
 }
 

@@ -76,7 +76,7 @@ void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocit
     stir();
     const Pose moved = constrained(pose, transform_);
     grip_.restart(Health::good);
-    acquired_us_ = t_us;
+    acquired_us_ = placed_us_ = t_us;
     if (doubt_.since_us() == emerged_at_us_) {
         // It goes on as it did before it was hidden.
         estimator_->resume(t_us, moved, hidden_way_.last().velocity, 0);

@@ -22,8 +22,7 @@ void Track::begin_stream(std::uint64_t stream_id, std::int64_t first_t_us) {
     }
     // A start that no event has moved yet was given for the stream that begins.
     if (is_searching_ || is_fresh_) {
-        begin(start_);
-        last_event_t_us_ = 0;  // what it tried was in the other stream
+        begin(start_, first_t_us);
         return;
     }
     vanishing_.restart();
@@ -55,8 +54,7 @@ void Track::go_on(std::uint64_t stream_id, std::int64_t first_t_us) {
     const bool is_followed = is_same && last.state == TrackState::tracking;
     const double longest_s = !is_same ? 0 : is_followed ? longest_way_s : tracker_.coast_s;
     const Coast now = Coast{last.t_us, last.pose, last.velocity}.at(first_t_us, longest_s);
-    begin({false, now.pose, now.velocity});
-    last_event_t_us_ = 0;
+    begin({false, now.pose, now.velocity}, first_t_us);
     if (is_followed) return;
     is_fresh_ = false;
     drift_from(now.pose);
@@ -65,7 +63,7 @@ void Track::go_on(std::uint64_t stream_id, std::int64_t first_t_us) {
 
 void Track::drift_from(const Pose& last) {
     good_.set({0, last, {}});
-    last_event_t_us_ = 0;
+    last_event_t_us_ = placed_us_ = 0;
     lose_grip(0);
     is_adrift_ = true;
     adrift_since_us_ = -1;  // the stream's first time, whatever the sensor counts from

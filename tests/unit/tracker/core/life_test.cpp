@@ -292,16 +292,24 @@ TEST(Life, after_a_pose_is_set_is_that_of_an_object_registered_there) {
     expect_poses_of_a_fresh_tracker(again, stream);
 }
 
-TEST(Life, after_a_pose_is_set_knows_when_its_last_event_was_and_in_a_new_stream_of_none) {
+TEST(Life, after_a_pose_is_set_is_of_that_time_and_of_no_event_until_one_is_used) {
     Tracker tracker = that_follows_an_arrow(swinging(0));
     Poses poses;
     tracker.process(outline_events(arrow(), swinging, 0, 200'000, 60, 5, small_sensor, 3), poses);
-    const std::int64_t last_us = tracker.snapshots().at(0).t_us;
-    EXPECT_GT(last_us, 190'000);
+    EXPECT_GT(tracker.snapshots().at(0).t_us, 190'000);
+    EXPECT_GT(last(poses).last_event_t_us, 190'000);
+    const std::int64_t set_us = tracker.effective_time_us();
     ASSERT_TRUE(tracker.set_pose("arrow", {false, pose_of(50, 50, 0), {}}));
     const Event far_off{210'000, 300, 230, 1};
     tracker.process({&far_off, 1}, poses);
-    EXPECT_EQ(tracker.snapshots().at(0).t_us, last_us);
+    tracker.advance(212'000, poses);
+    EXPECT_EQ(tracker.snapshots().at(0).t_us, set_us);
+    EXPECT_EQ(last(poses).last_event_t_us, 0);
+    const auto there = [](double t_us) { return pose_of(50 + 2e-4 * (t_us - 220e3), 50, 0); };
+    tracker.process(outline_events(arrow(), there, 220'000, 240'000, 60, 0, small_sensor, 4),
+                    poses);
+    EXPECT_GT(tracker.snapshots().at(0).t_us, 230'000);
+    EXPECT_GT(last(poses).last_event_t_us, 230'000);
     tracker.begin_stream(small_sensor, 2);
     EXPECT_EQ(tracker.snapshots().at(0).t_us, 0);
 }

@@ -83,6 +83,25 @@ TEST_F(HiddenArrow, is_occluded_while_it_is_covered_and_goes_on_where_it_would_b
     }
 }
 
+TEST_F(HiddenArrow, is_kept_for_a_further_run_with_the_time_of_its_pose_covered_or_not) {
+    begin(0, 0);
+    const auto events = seen(4'200'000);
+    bool was_covered = false;
+    auto done = events.begin();
+    for (std::int64_t t_us = 1'000'000; t_us <= 4'200'000; t_us += 1'000) {
+        const auto until = std::find_if(done, events.end(),
+                                        [&](const Event& event) { return event.t_us >= t_us; });
+        tracker_.process({done, until}, poses_);
+        done = until;
+        const TrackSnapshot now = tracker_.snapshots().front();
+        ASSERT_LT(rms_px(test::arrow(), now.pose, arrow_at(static_cast<double>(now.t_us))), 6)
+            << t_us;
+        was_covered |= now.state == TrackState::occluded && t_us == 2'300'000;
+    }
+    EXPECT_TRUE(was_covered);
+    EXPECT_EQ(at(4'100'000).state, TrackState::tracking);
+}
+
 TEST_F(HiddenArrow, is_not_left_frozen_when_occlusion_is_no_more_told) {
     begin(2, 1);
     const auto events = seen(4'500'000);

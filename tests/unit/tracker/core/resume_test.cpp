@@ -169,6 +169,50 @@ TEST(Resume, keeps_what_was_known_for_a_further_run_until_an_event_has_told_more
     EXPECT_EQ(now.pose, last.pose);
 }
 
+/// Follows the arrow until it is killed, and hears of no event after.
+Tracker followed_until_the_kill() {
+    Tracker tracker = test::that_follows_an_arrow(truth(killed_us - 200'000));
+    tracker.begin_stream(small_sensor, stream_id);
+    Poses poses;
+    tracker.process(test::outline_events(arrow(), truth, killed_us - 200'000, killed_us,
+                                         test::arrow_per_ms, 0, small_sensor, 3),
+                    poses);
+    EXPECT_EQ(tracker.snapshots().front().state, TrackState::tracking);
+    EXPECT_LT(test::rms_px(arrow(), tracker.snapshots().front().pose, last_seen.pose), 2);
+    return tracker;
+}
+
+TEST(Resume, goes_on_from_where_a_pose_was_set_as_long_after_the_last_event_as_that_was) {
+    Tracker tracker = followed_until_the_kill();
+    Poses poses;
+    const std::int64_t set_us = killed_us + 60'000'000;
+    tracker.advance(set_us - 1, poses);
+    const Start set{false, pose_of(200, 60, 0), {.vx_px_s = 50}};
+    ASSERT_TRUE(tracker.set_pose("arrow", set));
+    tracker.advance(set_us + 10'000, poses);
+    const TrackSnapshot last = tracker.snapshots().front();
+    EXPECT_EQ(last.t_us, set_us);
+    EXPECT_EQ(last.pose.t_px, set.pose.t_px);
+    Tracker again = restarted(last);
+    again.begin_stream(small_sensor, stream_id, set_us + 20'000);
+    const Event event{set_us + 20'000, 5, 5, 1};
+    Poses resumed;
+    again.process({&event, 1}, resumed);
+    again.advance(set_us + 21'000, resumed);
+    ASSERT_FALSE(resumed.rows.empty());
+    EXPECT_EQ(resumed.rows.back().record.state, TrackState::tracking);
+    EXPECT_NEAR(resumed.rows.back().record.pose.t_px.x(), 201, 0.1);
+}
+
+TEST(Resume, takes_a_pose_that_was_set_for_a_stream_to_be_of_its_first_time) {
+    Tracker tracker = followed_until_the_kill();
+    ASSERT_TRUE(tracker.set_pose("arrow", {false, registered, {.vx_px_s = 50}}));
+    tracker.begin_stream(small_sensor, stream_id + 1, back_us);
+    const TrackSnapshot last = tracker.snapshots().front();
+    EXPECT_EQ(last.t_us, back_us);
+    EXPECT_EQ(last.pose, registered);
+}
+
 TEST(Resume, is_refused_for_no_object_and_for_no_pose) {
     TrackSnapshot last = followed_in(TrackState::tracking);
     Tracker tracker = restarted(last);
