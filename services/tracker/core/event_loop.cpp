@@ -69,7 +69,17 @@ void EventLoop::add(const RegisteredObject& object, const TrackerParameters& tra
 
 void EventLoop::remove(std::uint32_t object_id) {
     std::erase_if(tracks_, [&](const Track& track) { return track.object_id() == object_id; });
+    forget(object_id);
+}
+
+void EventLoop::forget(std::uint32_t object_id) {
     arbiter_.forget(object_id);
+    seeker_.forget(object_id);
+}
+
+void EventLoop::replace(const RegisteredObject& object) {
+    if (Track* track = find(object.object_id)) track->replace(object);
+    seeker_.forget(object.object_id);
 }
 
 Track* EventLoop::find(std::uint32_t object_id) {

@@ -57,8 +57,10 @@ class EventLoop {
     void remove(std::uint32_t object_id);
     /// Null where there is none.
     [[nodiscard]] Track* find(std::uint32_t object_id);
-    /// Whose events are, is told anew where the object is concerned.
-    void forget(std::uint32_t object_id) { arbiter_.forget(object_id); }
+    /// Whose events are, is told anew where the object is concerned, and it is looked for anew.
+    void forget(std::uint32_t object_id);
+    /// It takes this content, and is looked for by it.
+    void replace(const RegisteredObject& object);
     void set_strategy(StrategyKind kind, const StrategyParameters& parameters) {
         arbiter_.set_strategy(kind, parameters);
     }

@@ -27,6 +27,11 @@ class Seeker {
  public:
     void restart(Geometry geometry);
 
+    /// What was begun for this object is of no use any more: it is elsewhere, or another shape.
+    void forget(std::uint32_t object_id) {
+        if (object_id == object_id_) forget_search();
+    }
+
     /// Every event.
     void see(const Event& event) {
         last_.see(event);

@@ -83,9 +83,7 @@ CallResult<void> Tracker::update_object(const ObjectUpdate& update) {
     if (auto room = impl_->has_room(); !room) return tl::unexpected(room.error());
     auto replaced = impl_->registry.replace(update, effective_time_us());
     if (!replaced) return tl::unexpected(replaced.error());
-    impl_->hold([object = **replaced](EventLoop& loop) {
-        if (Track* track = loop.find(object.object_id)) track->replace(object);
-    });
+    impl_->hold([object = **replaced](EventLoop& loop) { loop.replace(object); });
     return {};
 }
 
