@@ -116,11 +116,21 @@ double GradientEstimator<kind>::reach_px(std::int64_t) const {
     return extent_px_ + parameters_.gate_px;
 }
 
-// An event moves it by twice the gain of how far off it is.
+// An event moves it by twice the gain of how far off it is, and may make it larger as well. (It
+// turns about its own place, and reaches no farther by that.) The last event before it is placed
+// anew is asked about after one step less.
 template <TransformKind kind>
 bool GradientEstimator<kind>::leaps() const {
-    const double step_px = 2 * gains_.position * parameters_.gate_px;
-    return ReachMap::placed_every_events * step_px > ReachMap::reserve_px;
+    const double off_px = parameters_.gate_px;
+    double step_px = 2 * gains_.position * off_px;
+    if constexpr (kind == TransformKind::full_affine) {
+        const double arm_px = contour_.radius_px();
+        step_px += 2 * gains_.affine_1_px2 * off_px * arm_px * arm_px;
+    } else if constexpr (!keeps_its_size) {
+        const double log_scale = gains_.scale_1_px * off_px;
+        step_px += extent_px_ * log_scale * (1 + log_scale / 2);
+    }
+    return (ReachMap::placed_every_events - 1) * step_px > ReachMap::reserve_px;
 }
 
 // As of events scattered by a pixel.

@@ -188,6 +188,7 @@ Pose Track::pose() const {
 
 void Track::reach_time(std::int64_t t_us, const RecentPixels& pixels) {
     due_us_ = due_us_ == 0 ? t_us : t_us + unstirred_us;
+    leaps_ = estimator_->leaps();  // the farther the larger it is
     estimator_->set_blind_us(pixels.blind_us());
     if (adrift_since_us_ < 0) {
         adrift_since_us_ = t_us;
@@ -253,7 +254,6 @@ const Approach* Track::approach(const Event& event, const PixelPast& past) {
 }
 
 void Track::find_what_to_watch() {
-    leaps_ = estimator_->leaps();
     sharp2_px2_ = estimator_->gate_px() * estimator_->gate_px() / 16;
     // Where another covers it in part, what comes from inside may be the other's.
     watches_inside_ =
