@@ -56,6 +56,7 @@ Tracker& Tracker::operator=(Tracker&& other) noexcept = default;
 Tracker::~Tracker() = default;
 
 void Tracker::begin_stream(Geometry geometry, std::uint64_t stream_id, std::int64_t first_t_us) {
+    if (impl_->options.only_checks) return;
     impl_->loop.begin_stream(geometry, stream_id, first_t_us);
 }
 

@@ -24,7 +24,7 @@ struct TrackerOptions {
     std::string preset = "default";    ///< The constants to begin with.
     bool emit_updates = false;         ///< Hand every step to PoseSink::update().
     std::uint32_t next_object_id = 1;  ///< Ids below it are never chosen (they were used before).
-    bool only_checks = false;          ///< Answers calls, and follows nothing.
+    bool only_checks = false;          ///< Answers calls, and takes no stream.
     Geometry reserved = {};  ///< Memory for so large an image is there before the stream begins.
 };
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <fstream>
+
 #include "services/tracker/core/tracker.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
 
@@ -261,6 +263,20 @@ TEST(TrackerCalls, of_a_tracker_that_only_checks_are_answered_alike_and_move_not
     EXPECT_EQ(tracker.object("a")->start.pose.t_px.x(), 20);
     tracker.process({{{1000, 100, 100, 1}, {9000, 100, 100, 1}}}, poses);
     EXPECT_TRUE(poses.rows.empty());
+}
+
+TEST(TrackerCalls, of_a_tracker_that_only_checks_need_no_memory_for_the_image_of_a_stream) {
+    const auto mapped_pages = [] {
+        std::size_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        return pages;
+    };
+    Tracker tracker = Tracker::create({.only_checks = true}).value();
+    const std::size_t before = mapped_pages();
+    ASSERT_GT(before, 0U);
+    tracker.begin_stream({4096, 2048}, 1);  // 128 MB
+    EXPECT_LT(mapped_pages(), before + (std::size_t{64} << 20) / 4096);
+    EXPECT_EQ(tracker.geometry(), Geometry{});
 }
 
 TEST(TrackerCalls, drop_and_count_events_outside_the_geometry_or_back_in_time) {
