@@ -241,10 +241,10 @@ class Track {
     std::int64_t adrift_since_us_ = -1;
     bool is_searching_ = false;
     bool is_acquiring_ = false;
-    bool is_chased_ = false;    // through events of the past, by its acquisition
-    bool is_fresh_ = true;      // since the restart no event was taken
-    bool has_moved_ = false;    // by an event since the last weigh()
-    int near_since_check_ = 0;  // events, since one found too few of them
+    bool is_chased_ = false;             // through events of the past, by its acquisition
+    bool is_fresh_ = true;               // since the restart no event was taken
+    bool has_moved_ = false;             // by an event since the last weigh()
+    std::int64_t near_since_check_ = 0;  // events, since one found too few of them
     std::int64_t unmoved_until_us_ = 0;
     LossCause lost_by_ = LossCause::not_lost;  // not_seen_again once it may coast no more
     LossCause told_ = LossCause::not_lost;
