@@ -65,7 +65,8 @@ Result<void> TrackerService::start() {
     }
     auto& stored = found.state;
     auto tracker = configured_tracker(config_, stored ? stored->next_object_id : 1);
-    if (!tracker) return tl::unexpected(tracker.error());
+    // make() has tried the configuration: it is the store's number.
+    if (!tracker) return fail(path + ": " + tracker.error().message);
     SessionOutputs outputs{
         [this](v1::ObjectPose& pose) { return poses_->write(pose); },
         [this](v1::PoseTrack& track) { return tracks_->write(track); },

@@ -100,8 +100,13 @@ CallResult<Registered> Registry::add(const Registration& registration,
                                                       " is or was in use; the next free one is " +
                                                       std::to_string(next_object_id_));
     }
-    if (wanted_id == UINT32_MAX || next_object_id_ == UINT32_MAX) {
-        return refuse(CallStatus::limit_exceeded, "object_id: no id is left above");
+    if (!is_restored && wanted_id > max_requested_id) {
+        return refuse(CallStatus::invalid_argument,
+                      "object_id: " + std::to_string(wanted_id) + " is above " +
+                          std::to_string(max_requested_id) + ", the most that may be asked for");
+    }
+    if (!is_restored && next_object_id_ == no_object_id_left) {
+        return refuse(CallStatus::limit_exceeded, "object_id: all ids were in use, none is left");
     }
     if (objects_.size() >= max_objects_) {
         return refuse(CallStatus::limit_exceeded, "objects: the table is full with " +

@@ -66,6 +66,31 @@ TEST(TrackerCalls, take_an_id_of_the_caller_s_unless_it_was_used) {
     EXPECT_EQ(status_of(tracker.register_object(registration)), CallStatus::already_exists);
 }
 
+TEST(TrackerCalls, refuse_an_id_that_would_leave_few_to_choose) {
+    Tracker tracker = make_tracker();
+    Registration registration = at(arrow("a"), 1, 1);
+    for (const std::uint32_t id : {max_requested_id + 1, UINT32_MAX - 1, UINT32_MAX}) {
+        registration.object_id = id;
+        EXPECT_EQ(status_of(tracker.register_object(registration)), CallStatus::invalid_argument);
+    }
+    EXPECT_EQ(tracker.next_object_id(), 1U);
+    registration.object_id = max_requested_id;
+    EXPECT_EQ(tracker.register_object(registration)->object_id, max_requested_id);
+    EXPECT_EQ(tracker.register_object(at(arrow("b"), 1, 1))->object_id, max_requested_id + 1);
+}
+
+TEST(TrackerCalls, go_on_after_the_last_id_with_what_a_former_run_had) {
+    Tracker tracker = make_tracker({.next_object_id = UINT32_MAX - 1});
+    EXPECT_EQ(tracker.register_object(at(arrow("last"), 1, 1))->object_id, UINT32_MAX - 1);
+    EXPECT_EQ(tracker.next_object_id(), no_object_id_left);
+    Tracker restarted = make_tracker({.next_object_id = tracker.next_object_id()});
+    Registration last = at(arrow("last"), 1, 1);
+    last.object_id = UINT32_MAX - 1;
+    EXPECT_EQ(restarted.register_object(last)->object_id, UINT32_MAX - 1);
+    EXPECT_EQ(status_of(restarted.register_object(at(arrow("more"), 1, 1))),
+              CallStatus::limit_exceeded);
+}
+
 TEST(TrackerCalls, restore_former_ids_below_the_next_one) {
     Tracker tracker = make_tracker({.next_object_id = 9});
     Registration registration = at(arrow("a"), 1, 1);
