@@ -72,6 +72,8 @@ Result<void> TrackerService::start() {
         [this](v1::PoseTrack& track) { return tracks_->write(track); },
         [this](v1::RegisteredModel& model) { return model_writer_->write(model); },
         [this](v1::TrackerSettings& settings) { return settings_->write(settings); },
+        [this](v1::RegisteredModel& key) { return model_writer_->forget(key); },
+        [this](std::uint32_t object_id) { forget_poses(object_id); },
         [this](const SessionFigures& figures) { return status(figures); },
         [this](const std::string& message) { health_.error(message); },
         [](const PoseRecord& lost) {
@@ -135,6 +137,18 @@ void TrackerService::receive(v1::TrackerRequest& request, Server& server) {
     reply.header().remote_exception(answer.remote_exception);
     reply.outcome(std::move(answer.outcome));
     server.answer(request.header().request_id(), std::move(reply));
+}
+
+void TrackerService::forget_poses(std::uint32_t object_id) {
+    v1::ObjectPose pose;
+    pose.sensor_id(identity_.sensor_id);
+    pose.object_id(object_id);
+    poses_->forget(pose);
+    if (!tracks_) return;
+    v1::PoseTrack track;
+    track.sensor_id(identity_.sensor_id);
+    track.object_id(object_id);
+    tracks_->forget(track);
 }
 
 v1::TrackerStatus TrackerService::status(const SessionFigures& figures) {

@@ -44,6 +44,7 @@ class TrackerService final : public Service {
     Result<void> open_writers();
     Result<void> open_readers();
     void receive(v1::TrackerRequest& request, Server& server);
+    void forget_poses(std::uint32_t object_id);
     v1::TrackerStatus status(const SessionFigures& figures);
     void publish_status();
 

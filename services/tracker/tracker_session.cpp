@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::int64_t busy_window_us = 1'000'000;
 
+/// Failed writes are told no more often: there may be one with every pose.
+constexpr std::int64_t failures_told_every_ns = 10'000'000'000;
+
 PacketHeader header_of(const v1::EventPacket& packet) {
     return {packet.stream_id(),    packet.sequence_number(),          packet.base_time_us(),
             packet.host_time_ns(), {packet.width(), packet.height()}, packet.end_of_stream()};
@@ -45,7 +48,7 @@ TrackerSession::TrackerSession(Tracker tracker, ServiceIdentity identity,
                                   answer.outcome.message().to_string());
                }),
       publisher_(identity_.sensor_id, clock, outputs_.pose, outputs_.track, outputs_.loss),
-      board_(identity_, outputs_.model, outputs_.settings) {
+      board_(identity_, outputs_.model, outputs_.settings, outputs_.forget_model) {
     if (stored) restore(*stored);
     for (const auto& model : models) {
         if (tracker_.tracker().object(model.shape.name)) continue;
@@ -56,6 +59,7 @@ TrackerSession::TrackerSession(Tracker tracker, ServiceIdentity identity,
         }
     }
     board_.refresh(tracker_.tracker());
+    tell_failed_writes();
 }
 
 void TrackerSession::restore(const StoredState& stored) {
@@ -85,6 +89,9 @@ void TrackerSession::restore(const StoredState& stored) {
 
 void TrackerSession::take(v1::EventPacket& packet) {
     const PacketHeader header = header_of(packet);
+    // Those that are removed within this packet may have poses up to then in the next.
+    const std::size_t removed_before = removed_.size();
+    bool is_past_removals = false;
     switch (follower_.take(header)) {
         case PacketFate::of_another_stream:
         case PacketFate::old:
@@ -95,6 +102,7 @@ void TrackerSession::take(v1::EventPacket& packet) {
         case PacketFate::begins_stream:
             publisher_.begin_stream();
             tracker_.begin_stream(header.geometry, header.stream_id, header.base_time_us);
+            is_past_removals = true;
             break;
         case PacketFate::continues_stream:
             break;
@@ -110,6 +118,9 @@ void TrackerSession::take(v1::EventPacket& packet) {
     // What follows is not before the base time of an empty packet.
     if (events_.empty()) tracker_.advance(header.base_time_us, publisher_);
     publisher_.flush_tracks();
+    if (tracker_.tracker().last_t_us() > t_before_us) is_past_removals = true;
+    if (is_past_removals) forget_removed(removed_before);
+    tell_failed_writes();
     note_busy(clock_.steady_ns() - begin_ns, t_before_us);
 }
 
@@ -154,7 +165,30 @@ void TrackerSession::changed(const v1::TrackerCall& call) {
         const auto set = values_of(call.set_parameters().parameters()).value();
         for (const auto& value : set) keep(requested_.parameters, value);
     }
-    for (const auto object_id : board_.refresh(tracker_.tracker())) publisher_.forget(object_id);
+    for (const auto object_id : board_.refresh(tracker_.tracker())) {
+        publisher_.forget(object_id);
+        removed_.push_back(object_id);
+    }
+    tell_failed_writes();
+}
+
+void TrackerSession::forget_removed(std::size_t count) {
+    for (; count > 0; --count) {
+        publisher_.forget(removed_.front());  // what came since
+        outputs_.forget_poses(removed_.front());
+        removed_.pop_front();
+    }
+}
+
+void TrackerSession::tell_failed_writes() {
+    const std::uint64_t failures = publisher_.failures() + board_.failures();
+    if (failures == told_failures_) return;
+    const std::int64_t now_ns = clock_.steady_ns();
+    if (told_failures_ > 0 && now_ns - told_failures_ns_ < failures_told_every_ns) return;
+    told_failures_ = failures;
+    told_failures_ns_ = now_ns;
+    outputs_.error("the middleware did not take " + std::to_string(failures) +
+                   " samples of poses, models and settings so far");
 }
 
 SessionFigures TrackerSession::figures() const {

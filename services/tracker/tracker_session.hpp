@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -47,6 +48,8 @@ struct SessionOutputs {
     PosePublisher::WriteTrack track;
     ModelBoard::WriteModel model;
     ModelBoard::WriteSettings settings;
+    ModelBoard::WriteModel forget_model;              ///< As ModelBoard's.
+    std::function<void(std::uint32_t)> forget_poses;  ///< No pose of the object comes any more.
     std::function<v1::TrackerStatus(const SessionFigures&)> status;  ///< Asked for by a call.
     std::function<void(const std::string&)> error;                   ///< For log and status.
     PosePublisher::TellLoss loss;                                    ///< For the log.
@@ -79,6 +82,8 @@ class TrackerSession {
  private:
     void restore(const StoredState& stored);
     void changed(const v1::TrackerCall& call);
+    void forget_removed(std::size_t count);
+    void tell_failed_writes();
     void note_busy(std::int64_t busy_ns, std::int64_t t_before_us);
 
     ServiceIdentity identity_;
@@ -90,7 +95,10 @@ class TrackerSession {
     ModelBoard board_;
     RequestedSettings requested_;
     StoredMoment restored_;
-    std::vector<Event> events_;  // kept between packets
+    std::vector<Event> events_;          // kept between packets
+    std::deque<std::uint32_t> removed_;  // of which poses may still come
+    std::uint64_t told_failures_ = 0;
+    std::int64_t told_failures_ns_ = 0;
     std::uint64_t dropped_bad_geometry_ = 0;
     std::uint64_t requests_ = 0;
     std::uint64_t requests_refused_ = 0;

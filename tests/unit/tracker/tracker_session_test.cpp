@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "services/tracker/tracker_wire.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
 
 namespace pursuit::tracker {
@@ -13,16 +14,48 @@ namespace {
 
 /// A session over what a former run left, and what it said of that.
 struct Restarted {
-    explicit Restarted(const StoredState& stored)
-        : session(
-              Tracker::create({}).value(), {}, stored, {}, clock,
-              {[](v1::ObjectPose&) { return true; }, [](v1::PoseTrack&) { return true; },
-               [](v1::RegisteredModel&) { return true; }, [](v1::TrackerSettings&) { return true; },
-               [](const SessionFigures&) { return v1::TrackerStatus(); },
-               [this](const std::string& message) { errors.push_back(message); },
-               [](const PoseRecord&) {}}) {}
+    explicit Restarted(const StoredState& stored = {})
+        : session(Tracker::create({}).value(), {}, stored, {}, clock,
+                  {[](v1::ObjectPose&) { return true; }, [](v1::PoseTrack&) { return true; },
+                   [this](v1::RegisteredModel&) { return takes_models; },
+                   [](v1::TrackerSettings&) { return true; },
+                   [this](v1::RegisteredModel& model) {
+                       models_forgotten.push_back(model.object_id());
+                       return true;
+                   },
+                   [this](std::uint32_t object_id) { poses_forgotten.push_back(object_id); },
+                   [](const SessionFigures&) { return v1::TrackerStatus(); },
+                   [this](const std::string& message) { errors.push_back(message); },
+                   [](const PoseRecord&) {}}) {}
+
+    /// Registers an object and removes it.
+    void come_and_go() {
+        Registration registration;
+        registration.shape = test::arrow();
+        registration.start.pose = pose_of(100, 90, 0);
+        v1::TrackerRequest request;
+        request.call().register_model(register_model(registration));
+        EXPECT_EQ(session.answer(request).outcome().code(), v1::STATUS_OK);
+        v1::ModelName name;
+        name.name(registration.shape.name);
+        request.call().remove_model(name);
+        EXPECT_EQ(session.answer(request).outcome().code(), v1::STATUS_OK);
+    }
+    void packet_at(std::int64_t t_us) {
+        v1::EventPacket packet;
+        packet.stream_id(8);
+        packet.sequence_number(++packets);
+        packet.base_time_us(t_us);
+        packet.width(304);
+        packet.height(240);
+        session.take(packet);
+    }
 
     ManualClock clock;
+    bool takes_models = true;
+    std::uint64_t packets = 0;
+    std::vector<std::uint32_t> models_forgotten;
+    std::vector<std::uint32_t> poses_forgotten;
     std::vector<std::string> errors;
     TrackerSession session;
 };
@@ -82,6 +115,38 @@ TEST(TrackerSession, begins_where_an_object_was_registered_where_its_last_pose_i
     ASSERT_EQ(now.objects.size(), 1U);
     EXPECT_EQ(now.objects[0].object.object_id, 1U);
     EXPECT_EQ(now.objects[0].object.start.pose.t_px, Eigen::Vector2d(50, 60));
+}
+
+TEST(TrackerSession, lets_the_middleware_forget_removed_models_but_for_the_last_16) {
+    Restarted restarted;
+    for (int i = 0; i < 20; ++i) restarted.come_and_go();
+    EXPECT_THAT(restarted.models_forgotten, testing::ElementsAre(1, 2, 3, 4));
+}
+
+TEST(TrackerSession, lets_the_middleware_forget_poses_once_events_have_gone_past_the_removal) {
+    Restarted restarted;
+    restarted.packet_at(1'000);
+    restarted.come_and_go();
+    restarted.come_and_go();
+    restarted.packet_at(1'000);
+    EXPECT_TRUE(restarted.poses_forgotten.empty()) << "poses before the removal may still come";
+    restarted.packet_at(2'000);
+    EXPECT_THAT(restarted.poses_forgotten, testing::ElementsAre(1, 2));
+}
+
+TEST(TrackerSession, tells_of_samples_that_were_not_taken_at_most_once_in_10_s) {
+    Restarted restarted;
+    restarted.takes_models = false;
+    restarted.come_and_go();
+    ASSERT_EQ(restarted.errors.size(), 1U);
+    EXPECT_THAT(restarted.errors[0], testing::HasSubstr("did not take 1 samples"));
+    restarted.clock.advance(9'999'999'999);
+    restarted.come_and_go();
+    EXPECT_EQ(restarted.errors.size(), 1U);
+    restarted.clock.advance(1);
+    restarted.come_and_go();
+    ASSERT_EQ(restarted.errors.size(), 2U);
+    EXPECT_THAT(restarted.errors[1], testing::HasSubstr("did not take 5 samples"));
 }
 
 }  // namespace
