@@ -142,8 +142,13 @@ v1::TrackerReply TrackerSession::answer(v1::TrackerRequest& request) {
         accepted.effective_time_us = tracker_.tracker().effective_time_us();
     } else {
         const v1::TrackerCall call = request.call();
+        const std::uint32_t next_id_before = tracker_.tracker().next_object_id();
         accepted = tracker_.call(request.call(), request.apply_at_us());
-        if (accepted.answer.changed) changed(call);
+        if (accepted.answer.changed) {
+            changed(call);
+        } else if (tracker_.tracker().next_object_id() != next_id_before) {
+            ++revision_;  // An id was given to who waits: not to another after a restart either.
+        }
     }
     if (!accepted.answer.ok()) ++requests_refused_;
     v1::TrackerReply reply;

@@ -79,6 +79,12 @@ CallResult<Registered> Tracker::register_object(const Registration& registration
     return registered;
 }
 
+void Tracker::reserve_id(std::uint32_t object_id) { impl_->registry.reserve_id(object_id); }
+void Tracker::release_id(std::uint32_t object_id) { impl_->registry.release_id(object_id); }
+void Tracker::take_ids_of(const Tracker& other) {
+    impl_->registry.take_ids_of(other.impl_->registry);
+}
+
 CallResult<void> Tracker::update_object(const ObjectUpdate& update) {
     if (auto room = impl_->has_room(); !room) return tl::unexpected(room.error());
     auto replaced = impl_->registry.replace(update, effective_time_us());

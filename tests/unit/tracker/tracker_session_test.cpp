@@ -134,6 +134,21 @@ TEST(TrackerSession, lets_the_middleware_forget_poses_once_events_have_gone_past
     EXPECT_THAT(restarted.poses_forgotten, testing::ElementsAre(1, 2));
 }
 
+TEST(TrackerSession, stores_at_once_that_an_id_was_given_to_a_call_that_waits) {
+    Restarted restarted;
+    v1::TrackerRequest request;
+    Registration registration;
+    registration.shape = test::arrow();
+    registration.start.pose = pose_of(100, 90, 0);
+    request.call().register_model(register_model(registration));
+    request.apply_at_us(1'000);
+    const auto revision = restarted.session.revision();
+    EXPECT_EQ(restarted.session.answer(request).outcome().code(), v1::STATUS_OK);
+    EXPECT_EQ(restarted.session.figures().calls_waiting, 1U);
+    EXPECT_NE(restarted.session.revision(), revision);
+    EXPECT_EQ(restarted.session.stored_state().next_object_id, 2U);
+}
+
 TEST(TrackerSession, tells_of_samples_that_were_not_taken_at_most_once_in_10_s) {
     Restarted restarted;
     restarted.takes_models = false;
