@@ -25,6 +25,13 @@ std::string store_path(const disk::TrackerConfig& config) {
     return first.substr(0, first.find(':')) + "/tracker.store";
 }
 
+v1::TrackerReply refused(CallAnswer answer) {
+    v1::TrackerReply reply;
+    reply.header().remote_exception(answer.remote_exception);
+    reply.outcome(std::move(answer.outcome));
+    return reply;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Service>> TrackerService::make(const disk::TrackerConfig& config) {
@@ -82,7 +89,8 @@ Result<void> TrackerService::start() {
         },
     };
     store_ = std::make_unique<StoreWriter>(
-        path, [this](const std::string& message) { health_.error(message); });
+        path, [this](const std::string& message) { health_.error(message); },
+        [] { spdlog::info("the store is written again"); });
     core_ = std::make_unique<CoreThread>(
         std::make_unique<TrackerSession>(std::move(*tracker), identity_, std::move(stored), models_,
                                          clock_, std::move(outputs)),
@@ -130,13 +138,11 @@ Result<void> TrackerService::open_readers() {
 void TrackerService::receive(v1::TrackerRequest& request, Server& server) {
     if (queue_.push_request(request)) return;
     intake_.refused_requests.fetch_add(1);
-    auto answer = refusal(v1::STATUS_LIMIT_EXCEEDED,
-                          "requests: " + std::to_string(most_waiting_requests) + " are waiting",
-                          v1::REMOTE_OUT_OF_RESOURCES);
-    v1::TrackerReply reply;
-    reply.header().remote_exception(answer.remote_exception);
-    reply.outcome(std::move(answer.outcome));
-    server.answer(request.header().request_id(), std::move(reply));
+    server.answer(
+        request.header().request_id(),
+        refused(refusal(v1::STATUS_LIMIT_EXCEEDED,
+                        "requests: " + std::to_string(most_waiting_requests) + " are waiting",
+                        v1::REMOTE_OUT_OF_RESOURCES)));
 }
 
 void TrackerService::forget_poses(std::uint32_t object_id) {
@@ -154,9 +160,8 @@ void TrackerService::forget_poses(std::uint32_t object_id) {
 v1::TrackerStatus TrackerService::status(const SessionFigures& figures) {
     v1::TrackerStatus status =
         tracker_status(identity_, figures, queue_.figures(), intake_, clock_);
-    status.health().state(state_of(status, figures.stream_open));
-    const std::string described = describe(status);
-    health_.state(status.health().state(), described);
+    const std::string failure = store_ ? store_->failure() : "";
+    health_.state(state_of(status, figures, failure), describe(status, figures, failure));
     status.health(health_.snapshot(participant_->counts()));
     return status;
 }
@@ -165,6 +170,7 @@ void TrackerService::tick() {
     const std::int64_t now_ns = clock_.steady_ns();
     if (now_ns - last_store_ns_ >= std::int64_t{config_.store_period_ms()} * 1'000'000) {
         last_store_ns_ = now_ns;
+        store_->retry();
         core_->store_poses();
     }
     publish_status();
@@ -177,7 +183,8 @@ void TrackerService::publish_status() {
     const bool changed = now.health().state() != last_state_ || now.objects() != last_objects_ ||
                          now.health().errors() != last_errors_;
     if (!changed && now_ns - last_status_ns_ < status_period_ns) return;
-    if (now.sensor_silent() && last_state_ != v1::SERVICE_FAULT) spdlog::warn("{}", described_);
+    if (now.sensor_silent() && !was_silent_) spdlog::warn("{}", described_);
+    was_silent_ = now.sensor_silent();
     last_status_ns_ = now_ns;
     last_state_ = now.health().state();
     last_objects_ = now.objects();
@@ -185,12 +192,40 @@ void TrackerService::publish_status() {
     status_->write(now);
 }
 
+void TrackerService::count_rest() {
+    for (auto& work : queue_.rest()) {
+        if (const auto* packet = std::get_if<v1::EventPacket>(&work)) {
+            intake_.left_packets.fetch_add(1);
+            intake_.left_events.fetch_add(packet->words().size());
+            continue;
+        }
+        intake_.left_requests.fetch_add(1);
+        requests_->answer(std::get<v1::TrackerRequest>(work).header().request_id(),
+                          refused(refusal(v1::STATUS_FAILED, "the tracker stops")));
+    }
+    const auto waiting = core_->figures().calls_waiting;
+    if (waiting == 0) return;
+    health_.error(std::to_string(waiting) +
+                  " calls that waited for their time are dropped: the tracker stops");
+}
+
+void TrackerService::publish_last_status() {
+    // The last word: what came of it all. The writer is gone at once after this.
+    auto last = status(core_->figures());
+    health_.state(v1::SERVICE_FINISHED, "has stopped");
+    last.health(health_.snapshot(participant_->counts()));
+    status_->write(last);
+    status_->wait_acknowledged({0, 200'000'000});
+}
+
 void TrackerService::stop() {
-    // No more work comes in, then none is done, then what was done is kept.
+    // No more work comes in, then none is done, then what was done is kept and told.
     events_.reset();
     if (core_) core_->stop();
+    if (core_ && requests_) count_rest();
     requests_.reset();
     store_.reset();
+    if (core_) publish_last_status();
     core_.reset();
 }
 

@@ -47,6 +47,8 @@ class TrackerService final : public Service {
     void forget_poses(std::uint32_t object_id);
     v1::TrackerStatus status(const SessionFigures& figures);
     void publish_status();
+    void count_rest();
+    void publish_last_status();
 
     const disk::TrackerConfig config_;
     const std::vector<Registration> models_;
@@ -72,6 +74,7 @@ class TrackerService final : public Service {
     std::uint64_t last_errors_ = 0;
     v1::ServiceState last_state_ = v1::SERVICE_STARTING;
     std::uint32_t last_objects_ = 0;
+    bool was_silent_ = false;
 };
 
 }  // namespace pursuit::tracker

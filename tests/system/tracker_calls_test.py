@@ -116,6 +116,20 @@ class TrackerCalls(SystemTest):
         self.tracker = self.service("tracker", store=self.store)
         self.assertIn("is object 2147483648", self.register("next"))
 
+    def test_a_store_that_is_not_written_is_told_until_it_is_and_loses_nothing(self):
+        self.tracker.kill()
+        store = self.path("later/tracker.store")
+        self.tracker = self.service("tracker", store=store, store_period_ms=20)
+        self.register("one")
+        status = self.eventually(lambda: self.status()["state"] == "FAULT" and self.status(),
+                                 what="a store that is not written is a fault")
+        self.assertIn("the store is not written", status["detail"])
+        os.mkdir(self.path("later"))
+        self.eventually(lambda: self.status()["state"] == "WAITING", what="the store is written")
+        self.tracker.kill()
+        self.tracker = self.service("tracker", store=store)
+        self.assertEqual(self.ctl("model", "list").split(), ["one"])
+
     def test_sigterm_ends_it_within_two_seconds_with_the_store_written(self):
         self.register("one")
         os.remove(self.store)
