@@ -65,6 +65,10 @@ Result<void> TrackerService::start() {
     const std::string path = store_path(config_);
     FoundStore found;
     if (!path.empty()) {
+        auto lock = StoreLock::take(path);
+        if (!lock) return tl::unexpected(lock.error());
+        store_lock_ = std::move(*lock);
+        if (!store_lock_.problem().empty()) health_.error(store_lock_.problem());
         auto read = read_store(path);
         if (!read) return tl::unexpected(read.error());
         found = std::move(*read);

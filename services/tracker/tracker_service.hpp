@@ -12,6 +12,7 @@
 #include "services/common/service_main.hpp"
 #include "services/common/writer.hpp"
 #include "services/tracker/core_thread.hpp"
+#include "services/tracker/store_lock.hpp"
 #include "services/tracker/tracker_status.hpp"
 
 namespace pursuit::tracker {
@@ -64,6 +65,7 @@ class TrackerService final : public Service {
     std::unique_ptr<Writer<v1::RegisteredModel>> model_writer_;
     std::unique_ptr<Writer<v1::TrackerSettings>> settings_;
     std::unique_ptr<Writer<v1::TrackerStatus>> status_;
+    StoreLock store_lock_;
     std::unique_ptr<StoreWriter> store_;
     std::unique_ptr<CoreThread> core_;
     std::unique_ptr<Server> requests_;

@@ -116,6 +116,14 @@ class TrackerCalls(SystemTest):
         self.tracker = self.service("tracker", store=self.store)
         self.assertIn("is object 2147483648", self.register("next"))
 
+    def test_a_store_that_another_tracker_has_is_named_and_the_second_does_not_start(self):
+        second = self.start("pursuit-tracker", "--set", f"store={self.store}", "--set",
+                            f"dds.domain={self.domain.domain}", "--set", "dds.loopback_only=true",
+                            ready=False)
+        self.assertEqual(second.wait(10), 1)
+        self.assertIn(f"{self.store}: the store is in use by another tracker", second.err())
+        self.assertTrue(self.tracker.alive())
+
     def test_a_store_that_is_not_written_is_told_until_it_is_and_loses_nothing(self):
         self.tracker.kill()
         store = self.path("later/tracker.store")
