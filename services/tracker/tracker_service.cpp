@@ -37,7 +37,7 @@ v1::TrackerReply refused(CallAnswer answer) {
 Result<std::unique_ptr<Service>> TrackerService::make(const disk::TrackerConfig& config) {
     auto models = configured_models(config);
     if (!models) return tl::unexpected(models.error());
-    auto tried = configured_tracker(config, 1);
+    auto tried = configured_tracker(config, 1, true);
     if (!tried) return tl::unexpected(tried.error());
     for (std::size_t i = 0; i < models->size(); ++i) {
         const auto registered = tried->register_object((*models)[i]);
@@ -91,16 +91,18 @@ Result<void> TrackerService::start() {
             spdlog::warn("object {} is lost at {:.6f} s: {}", lost.model,
                          static_cast<double>(lost.t_us) * 1e-6, to_string(lost.loss_cause));
         },
+        may_go_on_starting,
     };
+    auto session = std::make_unique<TrackerSession>(
+        std::move(*tracker), identity_, std::move(stored), models_, clock_, std::move(outputs));
+    if (!session->is_whole()) return fail("not all objects were restored");
     store_ = std::make_unique<StoreWriter>(
         path, [this](const std::string& message) { health_.error(message); },
         [] { spdlog::info("the store is written again"); });
-    core_ = std::make_unique<CoreThread>(
-        std::make_unique<TrackerSession>(std::move(*tracker), identity_, std::move(stored), models_,
-                                         clock_, std::move(outputs)),
-        queue_, *store_, [this](const v1::RequestId& id, v1::TrackerReply reply) {
-            requests_->answer(id, std::move(reply));
-        });
+    core_ = std::make_unique<CoreThread>(std::move(session), queue_, *store_,
+                                         [this](const v1::RequestId& id, v1::TrackerReply reply) {
+                                             requests_->answer(id, std::move(reply));
+                                         });
     if (auto open = open_readers(); !open) return open;
     core_->start();
     publish_status();

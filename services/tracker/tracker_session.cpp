@@ -51,6 +51,7 @@ TrackerSession::TrackerSession(Tracker tracker, ServiceIdentity identity,
       board_(identity_, outputs_.model, outputs_.settings, outputs_.forget_model) {
     if (stored) restore(*stored);
     for (const auto& model : models) {
+        if (!may_go_on()) return;
         if (tracker_.tracker().object(model.shape.name)) continue;
         const auto registered = tracker_.tracker().register_object(model);
         if (!registered) {
@@ -58,8 +59,14 @@ TrackerSession::TrackerSession(Tracker tracker, ServiceIdentity identity,
                            " of the configuration: " + registered.error().message);
         }
     }
+    if (!is_whole_) return;
     board_.refresh(tracker_.tracker());
     tell_failed_writes();
+}
+
+bool TrackerSession::may_go_on() {
+    if (is_whole_) is_whole_ = outputs_.may_go_on();
+    return is_whole_;
 }
 
 void TrackerSession::restore(const StoredState& stored) {
@@ -76,6 +83,7 @@ void TrackerSession::restore(const StoredState& stored) {
         tell("parameters", tracker.set_parameters("", std::span(&value, 1)));
     }
     for (const auto& [object, track] : stored.objects) {
+        if (!may_go_on()) return;
         const auto registered =
             tracker.register_object({object.object_id, object.shape, object.transform,
                                      object.estimator, object.start, values(object.parameters)});

@@ -53,6 +53,7 @@ struct SessionOutputs {
     std::function<v1::TrackerStatus(const SessionFigures&)> status;  ///< Asked for by a call.
     std::function<void(const std::string&)> error;                   ///< For log and status.
     PosePublisher::TellLoss loss;                                    ///< For the log.
+    std::function<bool()> may_go_on;  ///< Asked before each object at the start, which takes long.
 };
 
 /// Everything that the core thread does, in the order that it is given: packets to the tracker,
@@ -61,9 +62,12 @@ class TrackerSession {
  public:
     /// `stored`: what a former run left. Its objects come back with their ids, and go on from their
     /// last poses (Tracker::resume). `models` are registered where no object of that name is there.
-    /// What cannot be restored is told to outputs.error and left out.
+    /// What cannot be restored is told to outputs.error and left out. Where outputs.may_go_on says
+    /// no, it is left as it is then, !is_whole(), and not to be used or stored.
     TrackerSession(Tracker tracker, ServiceIdentity identity, std::optional<StoredState> stored,
                    const std::vector<Registration>& models, Clock& clock, SessionOutputs outputs);
+
+    [[nodiscard]] bool is_whole() const { return is_whole_; }
 
     /// `packet` is used up.
     void take(v1::EventPacket& packet);
@@ -86,6 +90,8 @@ class TrackerSession {
     void tell_failed_writes();
     void note_busy(std::int64_t busy_ns, std::int64_t t_before_us);
 
+    [[nodiscard]] bool may_go_on();
+
     ServiceIdentity identity_;
     Clock& clock_;
     SessionOutputs outputs_;
@@ -95,6 +101,7 @@ class TrackerSession {
     ModelBoard board_;
     RequestedSettings requested_;
     StoredMoment restored_;
+    bool is_whole_ = true;
     std::vector<Event> events_;          // kept between packets
     std::deque<std::uint32_t> removed_;  // of which poses may still come
     std::uint64_t told_failures_ = 0;

@@ -14,8 +14,9 @@ namespace {
 
 /// A session over what a former run left, and what it said of that.
 struct Restarted {
-    explicit Restarted(const StoredState& stored = {})
-        : session(Tracker::create({}).value(), {}, stored, {}, clock,
+    explicit Restarted(const StoredState& stored = {}, int steps = 100)
+        : steps_left(steps),
+          session(Tracker::create({}).value(), {}, stored, {}, clock,
                   {[](v1::ObjectPose&) { return true; }, [](v1::PoseTrack&) { return true; },
                    [this](v1::RegisteredModel&) { return takes_models; },
                    [](v1::TrackerSettings&) { return true; },
@@ -26,7 +27,7 @@ struct Restarted {
                    [this](std::uint32_t object_id) { poses_forgotten.push_back(object_id); },
                    [](const SessionFigures&) { return v1::TrackerStatus(); },
                    [this](const std::string& message) { errors.push_back(message); },
-                   [](const PoseRecord&) {}}) {}
+                   [](const PoseRecord&) {}, [this] { return steps_left-- > 0; }}) {}
 
     /// Registers an object and removes it.
     void come_and_go() {
@@ -51,6 +52,7 @@ struct Restarted {
         session.take(packet);
     }
 
+    int steps_left;
     ManualClock clock;
     bool takes_models = true;
     std::uint64_t packets = 0;
@@ -147,6 +149,19 @@ TEST(TrackerSession, stores_at_once_that_an_id_was_given_to_a_call_that_waits) {
     EXPECT_EQ(restarted.session.figures().calls_waiting, 1U);
     EXPECT_NE(restarted.session.revision(), revision);
     EXPECT_EQ(restarted.session.stored_state().next_object_id, 2U);
+}
+
+TEST(TrackerSession, gives_up_between_two_objects_where_the_start_may_not_go_on) {
+    StoredState stored = tracked_at(pose_of(100, 90, 1));
+    stored.objects.push_back(stored.objects[0]);
+    stored.objects[1].object.object_id = 2;
+    stored.objects[1].object.shape.name = "second";
+    stored.next_object_id = 3;
+    EXPECT_TRUE(Restarted(stored).session.is_whole());
+    Restarted restarted(stored, 1);
+    EXPECT_FALSE(restarted.session.is_whole());
+    EXPECT_EQ(restarted.session.stored_state().objects.size(), 1U);
+    EXPECT_TRUE(restarted.errors.empty());
 }
 
 TEST(TrackerSession, tells_of_samples_that_were_not_taken_at_most_once_in_10_s) {
