@@ -46,6 +46,8 @@ class StopSignals {
     sigset_t set_{};
 };
 
+const char* name_of(int signal) { return signal == SIGTERM ? "SIGTERM" : "SIGINT"; }
+
 const disk::Log& log_settings(const google::protobuf::Message& configuration) {
     const auto* field = configuration.GetDescriptor()->FindFieldByName("log");
     return static_cast<const disk::Log&>(
@@ -55,6 +57,12 @@ const disk::Log& log_settings(const google::protobuf::Message& configuration) {
 int run(Service& service, const std::string& name, const FieldPlaces& places,
         const StopSignals& signals) {
     if (auto started = service.start(); !started) {
+        if (const int signal = signals.wait(std::chrono::nanoseconds(0))) {
+            spdlog::info("{} stops on {} while it starts: {}", name, name_of(signal),
+                         started.error().message);
+            service.stop();
+            return exit_success;
+        }
         const auto error = places.located(started.error(), "");
         spdlog::error("{} cannot start: {}", name, error.message);
         ::sd_notifyf(0, "STATUS=cannot start: %s", error.message.c_str());
@@ -66,7 +74,7 @@ int run(Service& service, const std::string& name, const FieldPlaces& places,
     spdlog::info("{} {} ready: {}", name, version(), status);
     while (!service.finished()) {
         if (const int signal = signals.wait(tick_period)) {
-            spdlog::info("{} stops on {}", name, signal == SIGTERM ? "SIGTERM" : "SIGINT");
+            spdlog::info("{} stops on {}", name, name_of(signal));
             break;
         }
         service.tick();
@@ -85,6 +93,15 @@ int run(Service& service, const std::string& name, const FieldPlaces& places,
 }
 
 }  // namespace
+
+bool may_go_on_starting() {
+    // They are blocked, so that they wait to be taken.
+    sigset_t pending{};
+    ::sigpending(&pending);
+    if (::sigismember(&pending, SIGTERM) == 1 || ::sigismember(&pending, SIGINT) == 1) return false;
+    ::sd_notify(0, "EXTEND_TIMEOUT_USEC=30000000");
+    return true;
+}
 
 int service_main(int argc, char** argv, const std::string& name,
                  google::protobuf::Message& configuration,

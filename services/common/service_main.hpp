@@ -33,13 +33,18 @@ class Service {
     virtual void stop() = 0;
 };
 
+/// For a start() that may take longer than systemd waits, before each step: asks for 30 s more.
+/// False once SIGTERM or SIGINT has come: it is to give up then.
+bool may_go_on_starting();
+
 /// Exit codes; RestartPreventExitStatus=78 keeps systemd from restarting on a bad configuration.
 enum ExitCode : int { exit_success = 0, exit_failure = 1, exit_configuration = 78 };
 
 /// The main() of a service: reads --config FILE and --set field=value into `configuration`,
 /// starts the log, makes the service, tells systemd READY when start() has returned, ticks until
-/// SIGTERM or SIGINT or until it has finished, and stops it. A second signal ends at once.
-/// `make` refuses a configuration by an Error; the process then ends with exit_configuration.
+/// SIGTERM or SIGINT or until it has finished, and stops it. A second signal ends at once. A
+/// start() that gives up on a signal is no failure. `make` refuses a configuration by an Error; the
+/// process then ends with exit_configuration.
 int service_main(int argc, char** argv, const std::string& name,
                  google::protobuf::Message& configuration,
                  const std::function<Result<std::unique_ptr<Service>>()>& make);

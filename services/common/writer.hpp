@@ -45,6 +45,15 @@ class Writer : private eprosima::fastdds::dds::DataWriterListener {
         return counted(writer_->write(&sample, params));
     }
 
+    /// Of a keyed topic: nothing more comes of the object whose key is in `sample`. Readers see it
+    /// as disposed; once they have heard, its place among those that a writer may have is free.
+    bool forget(T& sample) {
+        using Code = eprosima::fastrtps::types::ReturnCode_t;
+        const auto done = writer_->unregister_instance(&sample, {});
+        // Of what was never written there is nothing to forget.
+        return counted(done == Code::RETCODE_OK || done == Code::RETCODE_PRECONDITION_NOT_MET);
+    }
+
     /// Waits until every matched reader has acknowledged what was written; false on time-out.
     bool wait_acknowledged(const eprosima::fastrtps::Duration_t& at_most) {
         return writer_->wait_for_acknowledgments(at_most) ==

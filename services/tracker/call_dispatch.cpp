@@ -157,6 +157,7 @@ CallResult<Tracker> trial_of(const Tracker& tracker) {
                                    object.estimator, object.start, values(object.parameters)});
         if (!registered) return tl::unexpected(registered.error());
     }
+    made->take_ids_of(tracker);
     return made;
 }
 

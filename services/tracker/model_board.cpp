@@ -37,6 +37,13 @@ std::vector<std::uint32_t> ModelBoard::refresh(const Tracker& tracker) {
         sample.effective_time_us(tracker.effective_time_us());
         if (!write_model_(sample)) ++failures_;
         gone.push_back(object_id);
+        removed_.push_back(object_id);
+    }
+    for (; removed_.size() > removals_kept; removed_.pop_front()) {
+        v1::RegisteredModel key;
+        key.sensor_id(identity_.sensor_id);
+        key.object_id(removed_.front());
+        if (!forget_model_(key)) ++failures_;
     }
     for (const auto& [object_id, object] : now) {
         const auto known = published_.find(object_id);

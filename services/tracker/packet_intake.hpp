@@ -18,6 +18,9 @@ struct IntakeCounters {
     std::atomic<std::uint64_t> dropped_events{0};        ///< … and the events in them.
     std::atomic<std::uint64_t> of_another_sensor{0};     ///< Packets; not queued.
     std::atomic<std::uint64_t> refused_requests{0};      ///< Because too many waited.
+    std::atomic<std::uint64_t> left_packets{0};          ///< Waited still at the end …
+    std::atomic<std::uint64_t> left_events{0};           ///< … with the events in them …
+    std::atomic<std::uint64_t> left_requests{0};         ///< … and these.
     std::atomic<std::int64_t> last_packet_steady_ns{0};  ///< 0: none yet.
     std::atomic<bool> stream_ended{false};               ///< That packet was its stream's last.
 };

@@ -14,6 +14,15 @@ bool is_usable(const Event& event, Geometry geometry) {
     return event.t_us < max_t_us && event.x < geometry.width && event.y < geometry.height;
 }
 
+/// A call that waited comes to its time: what it reserved is its own now.
+CallAnswer dispatch_due(Tracker& tracker, const v1::TrackerCall& call,
+                        const ServiceIdentity& identity) {
+    if (call._d() == v1::TRACKER_REGISTER_MODEL) {
+        tracker.release_id(call.register_model().object_id());
+    }
+    return dispatch(tracker, call, identity);
+}
+
 }  // namespace
 
 ScheduledTracker::Accepted ScheduledTracker::call(v1::TrackerCall& call, std::int64_t apply_at_us) {
@@ -45,10 +54,16 @@ ScheduledTracker::Accepted ScheduledTracker::schedule(v1::TrackerCall& call,
     auto trial = trial_of(tracker_);
     if (!trial) return {refusal(v1::STATUS_FAILED, trial.error().message), 0};
     schedule_.each_until(apply_at_us, [&](std::int64_t, const v1::TrackerCall& before) {
-        dispatch(*trial, before, identity_);
+        dispatch_due(*trial, before, identity_);
     });
     CallAnswer answer = dispatch(*trial, call, identity_);
     if (!answer.ok()) return {std::move(answer), 0};
+    if (answer.changed && call._d() == v1::TRACKER_REGISTER_MODEL) {
+        // It is told now, so that no other object may get it until then.
+        const auto object_id = answer.result.register_model().object_id();
+        call.register_model().object_id(object_id);
+        tracker_.reserve_id(object_id);
+    }
     answer.changed = false;  // not yet
     static_cast<void>(schedule_.push(apply_at_us, std::move(call)));
     return {std::move(answer), apply_at_us};
@@ -58,7 +73,7 @@ ScheduledTracker::Accepted ScheduledTracker::schedule(v1::TrackerCall& call,
 void ScheduledTracker::apply_due() {
     while (schedule_.next_us() <= tracker_.effective_time_us()) {
         const v1::TrackerCall call = schedule_.pop();
-        const CallAnswer answer = dispatch(tracker_, call, identity_);
+        const CallAnswer answer = dispatch_due(tracker_, call, identity_);
         if (on_applied_) on_applied_(call, answer);
     }
 }

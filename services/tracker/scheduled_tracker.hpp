@@ -19,7 +19,8 @@ namespace pursuit::tracker {
 ///                        the calls waiting before     before the first at or after apply_at_us
 ///                        it; a refusal ends it here
 ///
-/// A call that waits is answered when it is accepted. If it is refused at its time all the same,
+/// A call that waits is answered when it is accepted; the id of an object that it registers is
+/// reserved until then. If it is refused at its time all the same,
 /// because other calls came between, nothing is changed and on_late_refusal is told. Calls that
 /// wait when a stream ends wait on for that time of the next stream. Calls that change nothing are
 /// answered at once whatever time they name. One thread.

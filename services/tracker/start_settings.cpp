@@ -42,8 +42,8 @@ Result<Registration> configured_model(const std::string& argument, EstimatorKind
     return registration;
 }
 
-Result<Tracker> configured_tracker(const disk::TrackerConfig& config,
-                                   std::uint32_t next_object_id) {
+Result<Tracker> configured_tracker(const disk::TrackerConfig& config, std::uint32_t next_object_id,
+                                   bool only_checks) {
     TrackerOptions options;
     options.pose_rate_hz = config.pose_rate_hz();
     options.max_poses_per_s = config.max_poses_per_s();
@@ -51,6 +51,7 @@ Result<Tracker> configured_tracker(const disk::TrackerConfig& config,
     options.preset = config.preset();
     options.emit_updates = config.pose_tracks();
     options.next_object_id = next_object_id;
+    options.only_checks = only_checks;
     options.reserved = usual_geometry;
     if (const auto preset = find_preset(config.preset()); !preset) {
         return fail_field("preset", ": " + preset.error().message);

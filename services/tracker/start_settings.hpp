@@ -12,8 +12,9 @@
 namespace pursuit::tracker {
 
 /// A tracker with the constants that the configuration states, and no object. Ids below
-/// `next_object_id` were used before. An error is one of a field.
-Result<Tracker> configured_tracker(const disk::TrackerConfig& config, std::uint32_t next_object_id);
+/// `next_object_id` were used before. `only_checks`: to try models on. An error is one of a field.
+Result<Tracker> configured_tracker(const disk::TrackerConfig& config, std::uint32_t next_object_id,
+                                   bool only_checks = false);
 
 /// The registration of PATH[@x,y,theta[,scale]] (model_file.hpp). Without "@…" an object begins
 /// where its file says that the model was made, or is searched for. A start with a scale is tracked

@@ -26,12 +26,19 @@ std::string store_path(const disk::TrackerConfig& config) {
     return first.substr(0, first.find(':')) + "/tracker.store";
 }
 
+v1::TrackerReply refused(CallAnswer answer) {
+    v1::TrackerReply reply;
+    reply.header().remote_exception(answer.remote_exception);
+    reply.outcome(std::move(answer.outcome));
+    return reply;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Service>> TrackerService::make(const disk::TrackerConfig& config) {
     auto models = configured_models(config);
     if (!models) return tl::unexpected(models.error());
-    auto tried = configured_tracker(config, 1);
+    auto tried = configured_tracker(config, 1, true);
     if (!tried) return tl::unexpected(tried.error());
     for (std::size_t i = 0; i < models->size(); ++i) {
         const auto registered = tried->register_object((*models)[i]);
@@ -59,6 +66,10 @@ Result<void> TrackerService::start() {
     const std::string path = store_path(config_);
     FoundStore found;
     if (!path.empty()) {
+        auto lock = StoreLock::take(path);
+        if (!lock) return tl::unexpected(lock.error());
+        store_lock_ = std::move(*lock);
+        if (!store_lock_.problem().empty()) health_.error(store_lock_.problem());
         auto read = read_store(path);
         if (!read) return tl::unexpected(read.error());
         found = std::move(*read);
@@ -66,12 +77,15 @@ Result<void> TrackerService::start() {
     }
     auto& stored = found.state;
     auto tracker = configured_tracker(config_, stored ? stored->next_object_id : 1);
-    if (!tracker) return tl::unexpected(tracker.error());
+    // make() has tried the configuration: it is the store's number.
+    if (!tracker) return fail(path + ": " + tracker.error().message);
     SessionOutputs outputs{
         [this](v1::ObjectPose& pose) { return poses_->write(pose); },
         [this](v1::PoseTrack& track) { return tracks_->write(track); },
         [this](v1::RegisteredModel& model) { return model_writer_->write(model); },
         [this](v1::TrackerSettings& settings) { return settings_->write(settings); },
+        [this](v1::RegisteredModel& key) { return model_writer_->forget(key); },
+        [this](std::uint32_t object_id) { forget_poses(object_id); },
         [this](const SessionFigures& figures) { return status(figures); },
         [this](const std::string& message) { health_.error(message); },
         [](const PoseRecord& lost) {
@@ -79,15 +93,18 @@ Result<void> TrackerService::start() {
                          static_cast<double>(lost.t_us) * 1e-6, to_string(lost.loss_cause));
         },
         [](const std::string& message) { spdlog::warn("{}", message); },
+        may_go_on_starting,
     };
+    auto session = std::make_unique<TrackerSession>(
+        std::move(*tracker), identity_, std::move(stored), models_, clock_, std::move(outputs));
+    if (!session->is_whole()) return fail("not all objects were restored");
     store_ = std::make_unique<StoreWriter>(
-        path, [this](const std::string& message) { health_.error(message); });
-    core_ = std::make_unique<CoreThread>(
-        std::make_unique<TrackerSession>(std::move(*tracker), identity_, std::move(stored), models_,
-                                         clock_, std::move(outputs)),
-        queue_, *store_, [this](const v1::RequestId& id, v1::TrackerReply reply) {
-            requests_->answer(id, std::move(reply));
-        });
+        path, [this](const std::string& message) { health_.error(message); },
+        [] { spdlog::info("the store is written again"); });
+    core_ = std::make_unique<CoreThread>(std::move(session), queue_, *store_,
+                                         [this](const v1::RequestId& id, v1::TrackerReply reply) {
+                                             requests_->answer(id, std::move(reply));
+                                         });
     if (auto open = open_readers(); !open) return open;
     core_->start();
     publish_status();
@@ -129,22 +146,31 @@ Result<void> TrackerService::open_readers() {
 void TrackerService::receive(v1::TrackerRequest& request, Server& server) {
     if (queue_.push_request(request)) return;
     intake_.refused_requests.fetch_add(1);
-    auto answer = refusal(v1::STATUS_LIMIT_EXCEEDED,
-                          "requests: " + std::to_string(most_waiting_requests) + " are waiting",
-                          v1::REMOTE_OUT_OF_RESOURCES);
-    v1::TrackerReply reply;
-    reply.header().remote_exception(answer.remote_exception);
-    reply.outcome(std::move(answer.outcome));
-    server.answer(request.header().request_id(), std::move(reply));
+    server.answer(
+        request.header().request_id(),
+        refused(refusal(v1::STATUS_LIMIT_EXCEEDED,
+                        "requests: " + std::to_string(most_waiting_requests) + " are waiting",
+                        v1::REMOTE_OUT_OF_RESOURCES)));
+}
+
+void TrackerService::forget_poses(std::uint32_t object_id) {
+    v1::ObjectPose pose;
+    pose.sensor_id(identity_.sensor_id);
+    pose.object_id(object_id);
+    poses_->forget(pose);
+    if (!tracks_) return;
+    v1::PoseTrack track;
+    track.sensor_id(identity_.sensor_id);
+    track.object_id(object_id);
+    tracks_->forget(track);
 }
 
 v1::TrackerStatus TrackerService::status(const SessionFigures& figures) {
     v1::TrackerStatus status =
         tracker_status(identity_, figures, queue_.figures(), intake_, clock_);
     add_losses(status.dropped_by(), *requests_);
-    status.health().state(state_of(status, figures.stream_open));
-    const std::string described = describe(status);
-    health_.state(status.health().state(), described);
+    const std::string failure = store_ ? store_->failure() : "";
+    health_.state(state_of(status, figures, failure), describe(status, figures, failure));
     status.health(health_.snapshot(participant_->counts()));
     return status;
 }
@@ -153,6 +179,7 @@ void TrackerService::tick() {
     const std::int64_t now_ns = clock_.steady_ns();
     if (now_ns - last_store_ns_ >= std::int64_t{config_.store_period_ms()} * 1'000'000) {
         last_store_ns_ = now_ns;
+        store_->retry();
         core_->store_poses();
     }
     publish_status();
@@ -165,7 +192,8 @@ void TrackerService::publish_status() {
     const bool changed = now.health().state() != last_state_ || now.objects() != last_objects_ ||
                          now.health().errors() != last_errors_;
     if (!changed && now_ns - last_status_ns_ < status_period_ns) return;
-    if (now.sensor_silent() && last_state_ != v1::SERVICE_FAULT) spdlog::warn("{}", described_);
+    if (now.sensor_silent() && !was_silent_) spdlog::warn("{}", described_);
+    was_silent_ = now.sensor_silent();
     last_status_ns_ = now_ns;
     last_state_ = now.health().state();
     last_objects_ = now.objects();
@@ -173,12 +201,40 @@ void TrackerService::publish_status() {
     status_->write(now);
 }
 
+void TrackerService::count_rest() {
+    for (auto& work : queue_.rest()) {
+        if (const auto* packet = std::get_if<v1::EventPacket>(&work)) {
+            intake_.left_packets.fetch_add(1);
+            intake_.left_events.fetch_add(packet->words().size());
+            continue;
+        }
+        intake_.left_requests.fetch_add(1);
+        requests_->answer(std::get<v1::TrackerRequest>(work).header().request_id(),
+                          refused(refusal(v1::STATUS_FAILED, "the tracker stops")));
+    }
+    const auto waiting = core_->figures().calls_waiting;
+    if (waiting == 0) return;
+    health_.error(std::to_string(waiting) +
+                  " calls that waited for their time are dropped: the tracker stops");
+}
+
+void TrackerService::publish_last_status() {
+    // The last word: what came of it all. The writer is gone at once after this.
+    auto last = status(core_->figures());
+    health_.state(v1::SERVICE_FINISHED, "has stopped");
+    last.health(health_.snapshot(participant_->counts()));
+    status_->write(last);
+    status_->wait_acknowledged({0, 200'000'000});
+}
+
 void TrackerService::stop() {
-    // No more work comes in, then none is done, then what was done is kept.
+    // No more work comes in, then none is done, then what was done is kept and told.
     events_.reset();
     if (core_) core_->stop();
+    if (core_ && requests_) count_rest();
     requests_.reset();
     store_.reset();
+    if (core_) publish_last_status();
     core_.reset();
 }
 

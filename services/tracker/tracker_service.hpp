@@ -12,6 +12,7 @@
 #include "services/common/service_main.hpp"
 #include "services/common/writer.hpp"
 #include "services/tracker/core_thread.hpp"
+#include "services/tracker/store_lock.hpp"
 #include "services/tracker/tracker_status.hpp"
 
 namespace pursuit::tracker {
@@ -44,8 +45,11 @@ class TrackerService final : public Service {
     Result<void> open_writers();
     Result<void> open_readers();
     void receive(v1::TrackerRequest& request, Server& server);
+    void forget_poses(std::uint32_t object_id);
     v1::TrackerStatus status(const SessionFigures& figures);
     void publish_status();
+    void count_rest();
+    void publish_last_status();
 
     const disk::TrackerConfig config_;
     const std::vector<Registration> models_;
@@ -61,6 +65,7 @@ class TrackerService final : public Service {
     std::unique_ptr<Writer<v1::RegisteredModel>> model_writer_;
     std::unique_ptr<Writer<v1::TrackerSettings>> settings_;
     std::unique_ptr<Writer<v1::TrackerStatus>> status_;
+    StoreLock store_lock_;
     std::unique_ptr<StoreWriter> store_;
     std::unique_ptr<CoreThread> core_;
     std::unique_ptr<Server> requests_;
@@ -71,6 +76,7 @@ class TrackerService final : public Service {
     std::uint64_t last_errors_ = 0;
     v1::ServiceState last_state_ = v1::SERVICE_STARTING;
     std::uint32_t last_objects_ = 0;
+    bool was_silent_ = false;
 };
 
 }  // namespace pursuit::tracker

@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::int64_t busy_window_us = 1'000'000;
 
+/// Failed writes are told no more often: there may be one with every pose.
+constexpr std::int64_t failures_told_every_ns = 10'000'000'000;
+
 PacketHeader header_of(const v1::EventPacket& packet) {
     return {packet.stream_id(),    packet.sequence_number(),          packet.base_time_us(),
             packet.host_time_ns(), {packet.width(), packet.height()}, packet.end_of_stream()};
@@ -46,7 +49,7 @@ TrackerSession::TrackerSession(Tracker tracker, ServiceIdentity identity,
                                   answer.outcome.message().to_string());
                }),
       publisher_(identity_.sensor_id, clock, outputs_.pose, outputs_.track, outputs_.loss),
-      board_(identity_, outputs_.model, outputs_.settings) {
+      board_(identity_, outputs_.model, outputs_.settings, outputs_.forget_model) {
     const Settings configured = tracker_.tracker().settings();
     if (stored) {
         restore(*stored);
@@ -56,12 +59,15 @@ TrackerSession::TrackerSession(Tracker tracker, ServiceIdentity identity,
         }
     }
     register_models(models, configured);
+    if (!is_whole_) return;
     board_.refresh(tracker_.tracker());
+    tell_failed_writes();
 }
 
 void TrackerSession::register_models(const std::vector<Registration>& models,
                                      const Settings& configured) {
     for (const auto& model : models) {
+        if (!may_go_on()) return;
         const auto& name = model.shape.name;
         if (const auto there = tracker_.tracker().object(name)) {
             const auto different = differences(model, *there, configured.new_objects);
@@ -74,6 +80,11 @@ void TrackerSession::register_models(const std::vector<Registration>& models,
                            " of the configuration: " + registered.error().message);
         }
     }
+}
+
+bool TrackerSession::may_go_on() {
+    if (is_whole_) is_whole_ = outputs_.may_go_on();
+    return is_whole_;
 }
 
 void TrackerSession::restore(const StoredState& stored) {
@@ -90,6 +101,7 @@ void TrackerSession::restore(const StoredState& stored) {
         tell("parameters", tracker.set_parameters("", std::span(&value, 1)));
     }
     for (const auto& [object, track] : stored.objects) {
+        if (!may_go_on()) return;
         const auto registered =
             tracker.register_object({object.object_id, object.shape, object.transform,
                                      object.estimator, object.start, values(object.parameters)});
@@ -103,6 +115,9 @@ void TrackerSession::restore(const StoredState& stored) {
 
 void TrackerSession::take(v1::EventPacket& packet) {
     const PacketHeader header = header_of(packet);
+    // Those that are removed within this packet may have poses up to then in the next.
+    const std::size_t removed_before = removed_.size();
+    bool is_past_removals = false;
     switch (follower_.take(header)) {
         case PacketFate::of_another_stream:
         case PacketFate::old:
@@ -113,6 +128,7 @@ void TrackerSession::take(v1::EventPacket& packet) {
         case PacketFate::begins_stream:
             publisher_.begin_stream();
             tracker_.begin_stream(header.geometry, header.stream_id, header.base_time_us);
+            is_past_removals = true;
             break;
         case PacketFate::continues_stream:
             break;
@@ -128,6 +144,9 @@ void TrackerSession::take(v1::EventPacket& packet) {
     // What follows is not before the base time of an empty packet.
     if (events_.empty()) tracker_.advance(header.base_time_us, publisher_);
     publisher_.flush_tracks();
+    if (tracker_.tracker().last_t_us() > t_before_us) is_past_removals = true;
+    if (is_past_removals) forget_removed(removed_before);
+    tell_failed_writes();
     note_busy(clock_.steady_ns() - begin_ns, t_before_us);
 }
 
@@ -149,8 +168,13 @@ v1::TrackerReply TrackerSession::answer(v1::TrackerRequest& request) {
         accepted.effective_time_us = tracker_.tracker().effective_time_us();
     } else {
         const v1::TrackerCall call = request.call();
+        const std::uint32_t next_id_before = tracker_.tracker().next_object_id();
         accepted = tracker_.call(request.call(), request.apply_at_us());
-        if (accepted.answer.changed) changed(call);
+        if (accepted.answer.changed) {
+            changed(call);
+        } else if (tracker_.tracker().next_object_id() != next_id_before) {
+            ++revision_;  // An id was given to who waits: not to another after a restart either.
+        }
     }
     if (!accepted.answer.ok()) ++requests_refused_;
     v1::TrackerReply reply;
@@ -172,7 +196,30 @@ void TrackerSession::changed(const v1::TrackerCall& call) {
         const auto set = values_of(call.set_parameters().parameters()).value();
         for (const auto& value : set) keep(requested_.parameters, value);
     }
-    for (const auto object_id : board_.refresh(tracker_.tracker())) publisher_.forget(object_id);
+    for (const auto object_id : board_.refresh(tracker_.tracker())) {
+        publisher_.forget(object_id);
+        removed_.push_back(object_id);
+    }
+    tell_failed_writes();
+}
+
+void TrackerSession::forget_removed(std::size_t count) {
+    for (; count > 0; --count) {
+        publisher_.forget(removed_.front());  // what came since
+        outputs_.forget_poses(removed_.front());
+        removed_.pop_front();
+    }
+}
+
+void TrackerSession::tell_failed_writes() {
+    const std::uint64_t failures = publisher_.failures() + board_.failures();
+    if (failures == told_failures_) return;
+    const std::int64_t now_ns = clock_.steady_ns();
+    if (told_failures_ > 0 && now_ns - told_failures_ns_ < failures_told_every_ns) return;
+    told_failures_ = failures;
+    told_failures_ns_ = now_ns;
+    outputs_.error("the middleware did not take " + std::to_string(failures) +
+                   " samples of poses, models and settings so far");
 }
 
 SessionFigures TrackerSession::figures() const {

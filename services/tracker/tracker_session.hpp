@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -47,10 +48,13 @@ struct SessionOutputs {
     PosePublisher::WriteTrack track;
     ModelBoard::WriteModel model;
     ModelBoard::WriteSettings settings;
+    ModelBoard::WriteModel forget_model;              ///< As ModelBoard's.
+    std::function<void(std::uint32_t)> forget_poses;  ///< No pose of the object comes any more.
     std::function<v1::TrackerStatus(const SessionFigures&)> status;  ///< Asked for by a call.
     std::function<void(const std::string&)> error;                   ///< For log and status.
     PosePublisher::TellLoss loss;                                    ///< For the log.
     std::function<void(const std::string&)> remark;                  ///< For the log.
+    std::function<bool()> may_go_on;  ///< Asked before each object at the start, which takes long.
 };
 
 /// Everything that the core thread does, in the order that it is given: packets to the tracker,
@@ -60,9 +64,12 @@ class TrackerSession {
     /// `stored`: what a former run left. Its objects come back with their ids, and go on from their
     /// last poses (Tracker::resume). `models` are registered where no object of that name is there;
     /// what the store holds otherwise than they and the tracker's settings are is remarked.
-    /// What cannot be restored is told to outputs.error and left out.
+    /// What cannot be restored is told to outputs.error and left out. Where outputs.may_go_on says
+    /// no, it is left as it is then, !is_whole(), and not to be used or stored.
     TrackerSession(Tracker tracker, ServiceIdentity identity, std::optional<StoredState> stored,
                    const std::vector<Registration>& models, Clock& clock, SessionOutputs outputs);
+
+    [[nodiscard]] bool is_whole() const { return is_whole_; }
 
     /// `packet` is used up.
     void take(v1::EventPacket& packet);
@@ -82,7 +89,11 @@ class TrackerSession {
     void restore(const StoredState& stored);
     void register_models(const std::vector<Registration>& models, const Settings& configured);
     void changed(const v1::TrackerCall& call);
+    void forget_removed(std::size_t count);
+    void tell_failed_writes();
     void note_busy(std::int64_t busy_ns, std::int64_t t_before_us);
+
+    [[nodiscard]] bool may_go_on();
 
     ServiceIdentity identity_;
     Clock& clock_;
@@ -93,7 +104,11 @@ class TrackerSession {
     ModelBoard board_;
     RequestedSettings requested_;
     StoredMoment restored_;
-    std::vector<Event> events_;  // kept between packets
+    bool is_whole_ = true;
+    std::vector<Event> events_;          // kept between packets
+    std::deque<std::uint32_t> removed_;  // of which poses may still come
+    std::uint64_t told_failures_ = 0;
+    std::int64_t told_failures_ns_ = 0;
     std::uint64_t dropped_bad_geometry_ = 0;
     std::uint64_t requests_ = 0;
     std::uint64_t requests_refused_ = 0;

@@ -27,6 +27,7 @@ v1::TrackerStatus tracker_status(const ServiceIdentity& identity, const SessionF
 
     const auto& tracker = figures.tracker;
     const std::uint64_t queue_full = intake.dropped_events;
+    const std::uint64_t left_at_stop = intake.left_events;
     const auto count = [&](const char* cause, std::uint64_t number) {
         v1::NamedCount named;
         named.name(cause);
@@ -38,17 +39,20 @@ v1::TrackerStatus tracker_status(const ServiceIdentity& identity, const SessionF
         status.events_dropped(status.events_dropped() + events);
     };
     dropped("queue_full", queue_full);
+    dropped("left_at_stop", left_at_stop);
     dropped("other_geometry", figures.dropped_bad_geometry);
     dropped("outside_geometry", tracker.dropped_outside_geometry);
     dropped("time_went_back", tracker.dropped_time_went_back);
     dropped("time_out_of_range", tracker.dropped_time_out_of_range);
     // Not events of this stream, and not among the total: packets and requests.
     count("packets.queue_full", intake.dropped_packets);
+    count("packets.left_at_stop", intake.left_packets);
     count("packets.old", figures.stream.old);
     count("packets.other_sensor", intake.of_another_sensor);
     count("packets.other_stream", figures.stream.of_another_stream);
     count("packets.other_geometry", figures.stream.bad_geometry);
     count("requests.queue_full", intake.refused_requests);
+    count("requests.left_at_stop", intake.left_requests);
     count("requests.refused_at_their_time", figures.late_refusals);
     count("writes.failed", figures.write_failures);
     // How often an object was lost, and why.
@@ -57,13 +61,14 @@ v1::TrackerStatus tracker_status(const ServiceIdentity& identity, const SessionF
               tracker.lost_by[i]);
     }
 
-    status.events_in(tracker.events_in + queue_full + figures.dropped_bad_geometry);
+    status.events_in(tracker.events_in + queue_full + left_at_stop + figures.dropped_bad_geometry);
     status.events_used(tracker.events_used);
     status.packets_in(figures.stream.packets);
     status.gaps(figures.stream.gaps);
     status.packets_missed(figures.stream.packets_missed);
-    status.requests(figures.requests + intake.refused_requests);
-    status.requests_refused(figures.requests_refused + intake.refused_requests);
+    const std::uint64_t unasked = intake.refused_requests + intake.left_requests;
+    status.requests(figures.requests + unasked);
+    status.requests_refused(figures.requests_refused + unasked);
     status.poses_out(figures.poses_out);
     status.poses_thinned(tracker.poses_thinned);
     status.queue_packets(static_cast<std::uint32_t>(queue.packets));
@@ -82,24 +87,30 @@ v1::TrackerStatus tracker_status(const ServiceIdentity& identity, const SessionF
     return status;
 }
 
-v1::ServiceState state_of(const v1::TrackerStatus& status, bool stream_open) {
-    if (status.sensor_silent()) return v1::SERVICE_FAULT;
-    return stream_open ? v1::SERVICE_RUNNING : v1::SERVICE_WAITING;
+v1::ServiceState state_of(const v1::TrackerStatus& status, const SessionFigures& figures,
+                          const std::string& store_failure) {
+    if (status.sensor_silent() || !store_failure.empty()) return v1::SERVICE_FAULT;
+    return figures.stream_open ? v1::SERVICE_RUNNING : v1::SERVICE_WAITING;
 }
 
-std::string describe(const v1::TrackerStatus& status) {
+std::string describe(const v1::TrackerStatus& status, const SessionFigures& figures,
+                     const std::string& store_failure) {
     const std::string sensor = "sensor " + std::to_string(status.sensor_id());
-    switch (status.health().state()) {
-        case v1::SERVICE_FAULT:
-            return sensor + " is silent: no packet for 100 ms";
-        case v1::SERVICE_RUNNING:
-            return "follows " + std::to_string(status.objects()) + " objects in the events of " +
-                   sensor;
-        default:
-            return (status.packets_in() == 0 ? "waits for events of "
-                                             : "waits for a new stream of ") +
-                   sensor + ", " + std::to_string(status.objects()) + " objects registered";
+    const std::string objects = std::to_string(status.objects()) + " objects";
+    std::string line;
+    if (status.sensor_silent()) {
+        line = sensor + " is silent: no packet for 100 ms";
+    } else if (figures.stream_open) {
+        line = "follows " + objects + " in the events of " + sensor;
+    } else {
+        line = (status.packets_in() == 0 ? "waits for events of " : "waits for a new stream of ") +
+               sensor + ", " + objects + " registered";
     }
+    if (figures.calls_waiting > 0) {
+        line += "; " + std::to_string(figures.calls_waiting) + " calls wait for their time";
+    }
+    if (!store_failure.empty()) line += "; the store is not written: " + store_failure;
+    return line;
 }
 
 }  // namespace pursuit::tracker

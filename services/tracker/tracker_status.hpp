@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "services/common/clock.hpp"
 #include "services/common/health.hpp"
@@ -20,8 +21,11 @@ v1::TrackerStatus tracker_status(const ServiceIdentity& identity, const SessionF
                                  const QueueFigures& queue, const IntakeCounters& intake,
                                  Clock& clock);
 
-/// One line for systemd and the status's detail: what is done, waited for, or at fault.
-std::string describe(const v1::TrackerStatus& status);
-v1::ServiceState state_of(const v1::TrackerStatus& status, bool stream_open);
+/// `store_failure`: why the store is not written; empty where it is.
+v1::ServiceState state_of(const v1::TrackerStatus& status, const SessionFigures& figures,
+                          const std::string& store_failure);
+/// One line for systemd and the status's detail: what is at fault, done or waited for.
+std::string describe(const v1::TrackerStatus& status, const SessionFigures& figures,
+                     const std::string& store_failure);
 
 }  // namespace pursuit::tracker

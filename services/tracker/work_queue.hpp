@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace pursuit::tracker {
 
@@ -89,13 +90,28 @@ class WorkQueue {
         changed_.notify_one();
     }
 
-    /// What still waits is left; pop() returns nothing from now on.
+    /// What still waits is left for rest(); pop() returns nothing from now on.
     void close() {
         {
             const std::scoped_lock lock(mutex_);
             closed_ = true;
         }
         changed_.notify_one();
+    }
+
+    /// What waited when the queue was closed: the packets, then the requests, in order.
+    std::vector<Work> rest() {
+        const std::scoped_lock lock(mutex_);
+        std::vector<Work> rest;
+        for (auto& packet : packets_) {
+            rest.emplace_back(std::in_place_index<0>, std::move(packet.content));
+        }
+        for (auto& request : requests_) {
+            rest.emplace_back(std::in_place_index<1>, std::move(request.content));
+        }
+        packets_.clear();
+        requests_.clear();
+        return rest;
     }
 
     [[nodiscard]] bool closed() const {

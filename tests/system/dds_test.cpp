@@ -122,6 +122,35 @@ TEST_F(Dds, a_reader_in_the_default_partition_hears_a_sensor_with_a_name) {
     EXPECT_TRUE(eventually([&] { return received == 1; }));
 }
 
+TEST_F(Dds, a_writer_has_room_for_ever_new_objects_where_it_forgets_those_that_are_gone) {
+    constexpr std::uint32_t objects = 1100;  // the middleware takes 1024 at once
+    std::atomic<std::uint32_t> last_id{0};
+    auto reader = Reader<v1::RegisteredModel>::create(
+        *two_, topic::models, [&](auto& model, auto&) { last_id = model.object_id(); });
+    auto writer = Writer<v1::RegisteredModel>::create(*one_, topic::models);
+    ASSERT_TRUE(reader && writer);
+    ASSERT_TRUE(eventually([&] { return (*writer)->matched() == 1 && (*reader)->matched() == 1; }));
+    v1::RegisteredModel model;
+    for (std::uint32_t id = 1; id <= objects; ++id) {
+        model.object_id(id);
+        ASSERT_TRUE((*writer)->write(model)) << id;
+        ASSERT_TRUE((*writer)->forget(model)) << id;
+        ASSERT_TRUE((*writer)->wait_acknowledged({5, 0})) << id;
+    }
+    EXPECT_TRUE(eventually([&] { return last_id == objects; })) << last_id;
+    // Nor is anything of them told to who comes late.
+    model.object_id(objects + 1);
+    ASSERT_TRUE((*writer)->write(model));
+    std::atomic<int> told_late{0};
+    auto late = Reader<v1::RegisteredModel>::create(*two_, topic::models,
+                                                    [&](auto&, auto&) { ++told_late; });
+    ASSERT_TRUE(late);
+    EXPECT_TRUE(eventually([&] { return told_late >= 1; }));
+    EXPECT_EQ(told_late, 1);
+    model.object_id(objects + 2);
+    EXPECT_TRUE((*writer)->forget(model)) << "never written";
+}
+
 TEST_F(Dds, a_late_reader_gets_the_last_latched_sample) {
     auto writer = Writer<v1::TrackerStatus>::create(*one_, topic::tracker_status);
     v1::TrackerStatus status;

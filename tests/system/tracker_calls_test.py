@@ -5,8 +5,10 @@ and what they changed outlives a kill."""
 
 import json
 import os
+import struct
 import time
 import unittest
+import zlib
 
 from pursuit_process import SystemTest
 
@@ -101,6 +103,45 @@ class TrackerCalls(SystemTest):
         self.assertEqual(tracker.wait(10), 1)
         self.assertIn(f"{path}: is no regular file", tracker.err())
         self.assertTrue(os.path.isdir(path))
+
+    def test_a_store_with_a_number_that_no_tracker_has_is_named(self):
+        path = self.path("zero.store")
+        content = b"\x08\x01\x40\x00"  # format 1, next_object_id 0
+        with open(path, "wb") as file:
+            file.write(content + b"\x4d" + struct.pack("<I", zlib.crc32(content)))
+        tracker = self.start("pursuit-tracker", "--set", f"store={path}", ready=False)
+        self.assertEqual(tracker.wait(10), 1)
+        self.assertIn(f"{path}: next_object_id: 0", tracker.err())
+
+    def test_the_largest_id_that_may_be_asked_for_leaves_more_also_after_a_restart(self):
+        self.register("far", "--object-id", 4294967294, code=1)
+        self.assertIn("4294967294 is above 2147483647", self.ctl_err)
+        self.assertIn("is object 2147483647", self.register("far", "--object-id", 2147483647))
+        self.assertEqual(self.tracker.stop(), 0)
+        self.tracker = self.service("tracker", store=self.store)
+        self.assertIn("is object 2147483648", self.register("next"))
+
+    def test_a_store_that_another_tracker_has_is_named_and_the_second_does_not_start(self):
+        second = self.start("pursuit-tracker", "--set", f"store={self.store}", "--set",
+                            f"dds.domain={self.domain.domain}", "--set", "dds.loopback_only=true",
+                            ready=False)
+        self.assertEqual(second.wait(10), 1)
+        self.assertIn(f"{self.store}: the store is in use by another tracker", second.err())
+        self.assertTrue(self.tracker.alive())
+
+    def test_a_store_that_is_not_written_is_told_until_it_is_and_loses_nothing(self):
+        self.tracker.kill()
+        store = self.path("later/tracker.store")
+        self.tracker = self.service("tracker", store=store, store_period_ms=20)
+        self.register("one")
+        status = self.eventually(lambda: self.status()["state"] == "FAULT" and self.status(),
+                                 what="a store that is not written is a fault")
+        self.assertIn("the store is not written", status["detail"])
+        os.mkdir(self.path("later"))
+        self.eventually(lambda: self.status()["state"] == "WAITING", what="the store is written")
+        self.tracker.kill()
+        self.tracker = self.service("tracker", store=store)
+        self.assertEqual(self.ctl("model", "list").split(), ["one"])
 
     def test_sigterm_ends_it_within_two_seconds_with_the_store_written(self):
         self.register("one")

@@ -145,7 +145,7 @@ Run define_model_register(CLI::App& app) {
                        "; without: " + std::string(tracker::to_string(default_estimator())) +
                        ", whatever the tracker's preset");
     app.add_option("--set", options->settings, "name=value: a parameter of the object")->take_all();
-    app.add_option("--object-id", options->object_id, "0: the tracker chooses");
+    app.add_option("--object-id", options->object_id, "0: the tracker chooses; at most 2147483647");
     app.add_option("--apply-at", options->apply_at_us, "Sensor time, us; 0: now");
     app.add_flag("--search", options->search, "Let the tracker find it");
     return [options] { return model_register(*options); };

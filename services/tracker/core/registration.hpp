@@ -21,9 +21,17 @@ struct Start {
     friend bool operator==(const Start&, const Start&) = default;
 };
 
+/// The largest id that a caller may choose. Ids rise and are never used again: one choice must not
+/// use up those that the tracker chooses.
+constexpr std::uint32_t max_requested_id = INT32_MAX;
+
+/// As the next object id: every id was used.
+constexpr std::uint32_t no_object_id_left = UINT32_MAX;
+
 /// An object to follow. Its name is the shape's.
 struct Registration {
-    /// 0: the tracker chooses the next. Else one not used before: at or above next_object_id(), or,
+    /// 0: the tracker chooses the next. Else one not used before: from next_object_id() to
+    /// max_requested_id; of those below it one of the last 1024 that were passed over; or,
     /// restoring what a former run had, below TrackerOptions::next_object_id and in rising order.
     std::uint32_t object_id = 0;
     Shape shape;  ///< Any origin: moved to the centre of gravity.

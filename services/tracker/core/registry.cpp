@@ -95,13 +95,19 @@ CallResult<Registered> Registry::add(const Registration& registration,
                           std::to_string(there->object_id) + " with other content");
     }
     const bool is_restored = wanted_id > restored_up_to_ && wanted_id < first_new_id_;
-    if (wanted_id != 0 && wanted_id < next_object_id_ && !is_restored) {
+    const bool is_unused = unused_ids_.contains(wanted_id);
+    if (wanted_id != 0 && wanted_id < next_object_id_ && !is_restored && !is_unused) {
         return refuse(CallStatus::already_exists, "object_id: " + std::to_string(wanted_id) +
                                                       " is or was in use; the next free one is " +
                                                       std::to_string(next_object_id_));
     }
-    if (wanted_id == UINT32_MAX || next_object_id_ == UINT32_MAX) {
-        return refuse(CallStatus::limit_exceeded, "object_id: no id is left above");
+    if (!is_restored && wanted_id > max_requested_id) {
+        return refuse(CallStatus::invalid_argument,
+                      "object_id: " + std::to_string(wanted_id) + " is above " +
+                          std::to_string(max_requested_id) + ", the most that may be asked for");
+    }
+    if (!is_restored && !is_unused && next_object_id_ == no_object_id_left) {
+        return refuse(CallStatus::limit_exceeded, "object_id: all ids were in use, none is left");
     }
     if (objects_.size() >= max_objects_) {
         return refuse(CallStatus::limit_exceeded, "objects: the table is full with " +
@@ -113,10 +119,11 @@ CallResult<Registered> Registry::add(const Registration& registration,
     object.transform = registration.transform;
     object.estimator = registration.estimator;
     object.start = allowed(registration.start, registration.transform);
+    unused_ids_.erase(object.object_id);
     if (is_restored) {
         restored_up_to_ = wanted_id;
     } else {
-        next_object_id_ = object.object_id + 1;
+        pass(object.object_id);
     }
     const Registered registered{object.object_id, false};
     const auto place = std::find_if(objects_.begin(), objects_.end(), [&](const auto& other) {
@@ -124,6 +131,35 @@ CallResult<Registered> Registry::add(const Registration& registration,
     });
     objects_.insert(place, std::move(object));
     return registered;
+}
+
+void Registry::pass(std::uint32_t object_id) {
+    if (object_id < next_object_id_) return;
+    const std::uint32_t over = std::min(object_id - next_object_id_, most_unused_ids);
+    for (std::uint32_t id = object_id - over; id < object_id; ++id) keep_unused(id);
+    next_object_id_ = object_id + 1;
+}
+
+void Registry::keep_unused(std::uint32_t object_id) {
+    if (unused_ids_.size() >= most_unused_ids) unused_ids_.erase(unused_ids_.begin());
+    unused_ids_.insert(object_id);
+}
+
+void Registry::reserve_id(std::uint32_t object_id) {
+    unused_ids_.erase(object_id);
+    pass(object_id);
+    reserved_ids_.insert(object_id);
+}
+
+void Registry::release_id(std::uint32_t object_id) {
+    if (reserved_ids_.erase(object_id) > 0) keep_unused(object_id);
+}
+
+void Registry::take_ids_of(const Registry& other) {
+    first_new_id_ = other.first_new_id_;
+    restored_up_to_ = other.restored_up_to_;
+    unused_ids_ = other.unused_ids_;
+    reserved_ids_ = other.reserved_ids_;
 }
 
 CallResult<const RegisteredObject*> Registry::replace(const ObjectUpdate& update,

@@ -42,7 +42,7 @@ CallResult<Tracker> Tracker::create(const TrackerOptions& options) {
          {check_range("pose_rate_hz", options.pose_rate_hz, 1, 100'000),
           check_range("max_poses_per_s", options.max_poses_per_s, 1, 1e6),
           check_range("max_objects", options.max_objects, 1, 256),
-          check_range("next_object_id", options.next_object_id, 1, UINT32_MAX - 1)}) {
+          check_range("next_object_id", options.next_object_id, 1, no_object_id_left)}) {
         if (!checked) return tl::unexpected(checked.error());
     }
     auto preset = find_preset(options.preset);
@@ -78,6 +78,12 @@ CallResult<Registered> Tracker::register_object(const Registration& registration
         loop.add(object, tracker);
     });
     return registered;
+}
+
+void Tracker::reserve_id(std::uint32_t object_id) { impl_->registry.reserve_id(object_id); }
+void Tracker::release_id(std::uint32_t object_id) { impl_->registry.release_id(object_id); }
+void Tracker::take_ids_of(const Tracker& other) {
+    impl_->registry.take_ids_of(other.impl_->registry);
 }
 
 CallResult<void> Tracker::update_object(const ObjectUpdate& update) {

@@ -73,6 +73,12 @@ class Tracker {
     /// the start) changes nothing and gives the id there. Refused: a bad shape, start or parameter,
     /// a name or id in use by other content, an id that was used before, a full table.
     CallResult<Registered> register_object(const Registration& registration);
+    /// Nobody gets this id, which register_object() would give, before it is released; then who
+    /// asks for it by number.
+    void reserve_id(std::uint32_t object_id);
+    void release_id(std::uint32_t object_id);
+    /// Which ids are reserved, were passed over, or are still to be restored.
+    void take_ids_of(const Tracker& other);
     CallResult<void> update_object(const ObjectUpdate& update);
     CallResult<void> remove_object(std::string_view name);
 

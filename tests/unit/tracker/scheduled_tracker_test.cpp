@@ -217,6 +217,41 @@ TEST(ScheduledTracker, tells_of_a_call_that_is_refused_at_its_time_and_changes_n
     EXPECT_THAT(late[0], HasSubstr("'a'"));
 }
 
+std::uint32_t id_of(const ScheduledTracker::Accepted& accepted) {
+    EXPECT_TRUE(accepted.answer.ok()) << accepted.answer.outcome.message();
+    return accepted.answer.ok() ? accepted.answer.result.register_model().object_id() : 0;
+}
+
+TEST(ScheduledTracker, gives_the_id_that_it_has_told_to_no_other_object) {
+    auto tracker = fresh();
+    Poses poses;
+    auto later = registration("later", 100);
+    EXPECT_EQ(id_of(tracker.call(later, 400)), 1U);
+    auto latest = registration("latest", 100);
+    EXPECT_EQ(id_of(tracker.call(latest, 500)), 2U);
+    auto before = registration("before", 100);
+    EXPECT_EQ(id_of(tracker.call(before, 300)), 3U);
+    auto now = registration("now", 200);
+    EXPECT_EQ(id_of(tracker.call(now, 0)), 4U);
+    auto thief = registration("thief", 200);
+    thief.register_model().object_id(1);
+    EXPECT_EQ(tracker.call(thief, 0).answer.outcome.code(), v1::STATUS_ALREADY_EXISTS);
+    tracker.advance(600, poses);
+    EXPECT_EQ(tracker.tracker().object("later")->object_id, 1U);
+    EXPECT_EQ(tracker.tracker().object("latest")->object_id, 2U);
+    EXPECT_EQ(tracker.tracker().object("before")->object_id, 3U);
+    EXPECT_EQ(tracker.tracker().object("now")->object_id, 4U);
+}
+
+TEST(ScheduledTracker, gives_the_same_ids_to_the_same_calls_by_number_in_order_of_time) {
+    auto tracker = fresh();
+    for (const auto& [name, id] : {std::pair{"now", 4U}, {"before", 3U}, {"later", 1U}}) {
+        auto call = registration(name, 100);
+        call.register_model().object_id(id);
+        EXPECT_EQ(id_of(tracker.call(call, 0)), id);
+    }
+}
+
 TEST(ScheduledTracker, takes_256_waiting_calls_and_refuses_the_next) {
     auto tracker = fresh();
     Poses poses;

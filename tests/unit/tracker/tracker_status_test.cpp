@@ -149,6 +149,41 @@ TEST(TrackerStatus, of_an_open_stream_without_packets_for_100_ms_is_a_fault) {
     EXPECT_FALSE(is_silent(figures, intake, 100'000'002));
 }
 
+TEST(TrackerStatus, counts_what_waited_still_at_the_end_as_dropped) {
+    ManualClock clock;
+    SessionFigures figures;
+    figures.tracker.events_in = 100;
+    IntakeCounters intake;
+    intake.left_packets = 2;
+    intake.left_events = 30;
+    intake.left_requests = 3;
+    const auto status = tracker_status({}, figures, {}, intake, clock);
+    EXPECT_EQ(status.events_in(), 130U);
+    EXPECT_EQ(status.events_dropped(), 30U);
+    EXPECT_EQ(status.requests(), 3U);
+    EXPECT_EQ(status.requests_refused(), 3U);
+}
+
+TEST(TrackerStatus, is_a_fault_with_its_reason_while_the_store_is_not_written) {
+    ManualClock clock;
+    SessionFigures figures;
+    figures.stream_open = true;
+    const auto status = status_of(figures, clock);
+    EXPECT_EQ(state_of(status, figures, ""), v1::SERVICE_RUNNING);
+    EXPECT_EQ(describe(status, figures, ""), "follows 0 objects in the events of sensor 1");
+    EXPECT_EQ(state_of(status, figures, "disk full"), v1::SERVICE_FAULT);
+    EXPECT_EQ(describe(status, figures, "disk full"),
+              "follows 0 objects in the events of sensor 1; the store is not written: disk full");
+}
+
+TEST(TrackerStatus, says_how_many_calls_wait_for_their_time) {
+    ManualClock clock;
+    SessionFigures figures;
+    figures.calls_waiting = 2;
+    EXPECT_EQ(describe(status_of(figures, clock), figures, ""),
+              "waits for events of sensor 1, 0 objects registered; 2 calls wait for their time");
+}
+
 TEST(TrackerStatus, of_a_stream_that_has_ended_is_no_fault_while_the_tracker_is_behind) {
     SessionFigures figures;
     figures.stream_open = true;  // its end still waits

@@ -91,6 +91,18 @@ TEST(WorkQueue, gives_nothing_more_once_it_is_closed) {
     EXPECT_TRUE(queue.closed());
 }
 
+TEST(WorkQueue, hands_over_what_waited_when_it_was_closed_once) {
+    Queue queue(4, 4);
+    queue.push_packet(1);
+    ASSERT_TRUE(push(queue, "a"));
+    queue.push_packet(2);
+    EXPECT_EQ(next(queue), "1");
+    queue.close();
+    EXPECT_THAT(queue.rest(), testing::ElementsAre(Queue::Work(2), Queue::Work("a")));
+    EXPECT_TRUE(queue.rest().empty());
+    EXPECT_EQ(queue.figures().packets, 0U);
+}
+
 TEST(WorkQueue, passes_everything_from_two_threads_to_a_third_in_each_threads_order) {
     constexpr int each = 20'000;
     Queue queue(each, each);
