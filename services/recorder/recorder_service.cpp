@@ -94,6 +94,7 @@ Result<void> RecorderService::start() {
 
 void RecorderService::tick() {
     activity_->tick();
+    server_->tick();
     std::deque<v1::RecorderRequest> requests;
     {
         const std::scoped_lock lock(mutex_);

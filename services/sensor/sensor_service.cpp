@@ -227,6 +227,7 @@ v1::SensorStatus SensorService::status() const {
 
 void SensorService::tick() {
     set_filters();
+    requests_->tick();
     const auto now_ns = clock_.steady_ns();
     const auto state = service_state();
     const bool due = now_ns - last_status_ns_ >= status_period_ns;

@@ -152,6 +152,7 @@ void TrackerService::tick() {
         last_store_ns_ = now_ns;
         core_->store_poses();
     }
+    requests_->tick();
     publish_status();
 }
 

@@ -188,6 +188,22 @@ TEST_F(Requests, with_the_same_id_are_answered_again_and_not_applied_again) {
     EXPECT_EQ(handled_, 1);
 }
 
+TEST_F(Requests, of_one_who_has_just_come_are_answered_once_more_by_themselves) {
+    std::atomic<int> replies{0};
+    auto reader = Reader<v1::SensorReply>::create(*two_, topic::sensor_reply,
+                                                  [&](auto&, auto&) { ++replies; });
+    auto writer = Writer<v1::SensorRequest>::create(*two_, topic::sensor_request);
+    ASSERT_TRUE(eventually([&] { return (*writer)->matched() == 1 && (*reader)->matched() == 1; }));
+    v1::SensorRequest request;
+    request.header().request_id(request_id((*writer)->guid(), 7));
+    ASSERT_TRUE((*writer)->write(request));
+    EXPECT_TRUE(eventually([&] {
+        server_->tick();
+        return replies == 2;
+    }));
+    EXPECT_EQ(handled_, 1);
+}
+
 TEST_F(Requests, without_a_service_fail_with_the_name_of_the_topic) {
     server_.reset();
     v1::SensorRequest request;
