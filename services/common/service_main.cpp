@@ -21,13 +21,17 @@ namespace {
 
 constexpr auto tick_period = std::chrono::milliseconds(50);
 
-/// SIGTERM and SIGINT, taken by waiting for them. Must be made before any thread is.
+/// SIGTERM, SIGINT and SIGHUP, taken by waiting for them. Must be made before any thread is.
 class StopSignals {
  public:
     StopSignals() {
         ::sigemptyset(&set_);
         ::sigaddset(&set_, SIGTERM);
         ::sigaddset(&set_, SIGINT);
+        // A terminal that is closed. What was started by nohup(1) ignores it, and is to go on.
+        struct sigaction hangup {};
+        ::sigaction(SIGHUP, nullptr, &hangup);
+        if (hangup.sa_handler != SIG_IGN) ::sigaddset(&set_, SIGHUP);
         ::sigprocmask(SIG_BLOCK, &set_, nullptr);
         // A peer of a pipe or socket that goes away is an error value, not the end.
         ::signal(SIGPIPE, SIG_IGN);
@@ -61,16 +65,25 @@ int run(Service& service, const std::string& name, const FieldPlaces& places,
         service.stop();
         return exit_failure;
     }
+    std::string stalled;
     std::string status = service.status_line();
     ::sd_notifyf(0, "READY=1\nSTATUS=%s", status.c_str());
     spdlog::info("{} {} ready: {}", name, version(), status);
     while (!service.finished()) {
         if (const int signal = signals.wait(tick_period)) {
-            spdlog::info("{} stops on {}", name, signal == SIGTERM ? "SIGTERM" : "SIGINT");
+            spdlog::info("{} stops on SIG{}", name, ::sigabbrev_np(signal));
             break;
         }
         service.tick();
-        ::sd_notify(0, "WATCHDOG=1");
+        if (auto now = service.stalled(); now != stalled) {
+            stalled = std::move(now);
+            if (stalled.empty()) {
+                spdlog::info("{} gets on again", name);
+            } else {
+                spdlog::error("{}: {}; the watchdog is not told that all is well", name, stalled);
+            }
+        }
+        if (stalled.empty()) ::sd_notify(0, "WATCHDOG=1");
         if (auto now = service.status_line(); now != status) {
             status = std::move(now);
             ::sd_notifyf(0, "STATUS=%s", status.c_str());

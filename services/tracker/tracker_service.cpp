@@ -158,6 +158,10 @@ void TrackerService::tick() {
 
 void TrackerService::publish_status() {
     auto now = status(core_->figures());
+    if (const auto what = stalled(); !what.empty()) {
+        now.health().state(v1::SERVICE_FAULT);
+        now.health().detail(what);
+    }
     described_ = now.health().detail().to_string();
     const std::int64_t now_ns = clock_.steady_ns();
     const bool changed = now.health().state() != last_state_ || now.objects() != last_objects_ ||
@@ -169,6 +173,10 @@ void TrackerService::publish_status() {
     last_objects_ = now.objects();
     last_errors_ = now.health().errors();
     status_->write(now);
+}
+
+std::string TrackerService::stalled() const {
+    return core_->stalled() ? "the core thread has done nothing for 5 s" : "";
 }
 
 void TrackerService::stop() {
