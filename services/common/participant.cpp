@@ -62,9 +62,7 @@ dds::DomainParticipantQos participant_qos(const disk::Dds& settings, const std::
 
 }  // namespace
 
-Result<std::unique_ptr<Participant>> Participant::create(const disk::Dds& settings,
-                                                         const std::string& name,
-                                                         const std::string& sensor) {
+Result<void> Participant::check(const disk::Dds& settings) {
     for (int i = 0; i < settings.initial_peer_size(); ++i) {
         const auto& peer = settings.initial_peer(i);
         if (!eprosima::fastrtps::rtps::IPLocator::isIPv4(peer)) {
@@ -72,6 +70,13 @@ Result<std::unique_ptr<Participant>> Participant::create(const disk::Dds& settin
                               ": \"" + peer + "\" is no IPv4 address");
         }
     }
+    return {};
+}
+
+Result<std::unique_ptr<Participant>> Participant::create(const disk::Dds& settings,
+                                                         const std::string& name,
+                                                         const std::string& sensor) {
+    if (auto good = check(settings); !good) return tl::unexpected(good.error());
     std::unique_ptr<Participant> self(new Participant);
     self->heartbeat_ms_ = settings.heartbeat_ms();
     auto* factory = dds::DomainParticipantFactory::get_instance();

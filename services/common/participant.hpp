@@ -36,6 +36,8 @@ class Participant {
     static Result<std::unique_ptr<Participant>> create(const disk::Dds& settings,
                                                        const std::string& name,
                                                        const std::string& sensor);
+    /// Whether the settings are good; told with the field. Joins nothing.
+    static Result<void> check(const disk::Dds& settings);
     ~Participant();
     Participant(const Participant&) = delete;
     Participant& operator=(const Participant&) = delete;

@@ -13,6 +13,7 @@
 
 #include "services/common/health.hpp"
 #include "services/common/log.hpp"
+#include "services/common/participant.hpp"
 #include "services/common/settings.hpp"
 #include "services/common/text_format.hpp"
 
@@ -50,9 +51,11 @@ class StopSignals {
     sigset_t set_{};
 };
 
-const disk::Log& log_settings(const google::protobuf::Message& configuration) {
-    const auto* field = configuration.GetDescriptor()->FindFieldByName("log");
-    return static_cast<const disk::Log&>(
+/// What the configuration of every service has, by the name of its field.
+template <class Part>
+const Part& part_of(const google::protobuf::Message& configuration, const char* name) {
+    const auto* field = configuration.GetDescriptor()->FindFieldByName(name);
+    return static_cast<const Part&>(
         configuration.GetReflection()->GetMessage(configuration, field));
 }
 
@@ -124,10 +127,10 @@ int service_main(int argc, char** argv, const std::string& name,
         spdlog::error("{}: {}", name, read.error().message);
         return exit_configuration;
     }
-    start_log(log_settings(configuration));
+    start_log(part_of<disk::Log>(configuration, "log"));
     const StopSignals signals;
     try {
-        auto service = make();
+        auto service = Participant::check(part_of<disk::Dds>(configuration, "dds")).and_then(make);
         if (!service) {
             spdlog::error("{}: {}", name, places.located(service.error(), path).message);
             return exit_configuration;

@@ -38,6 +38,7 @@ Result<std::unique_ptr<Service>> SensorService::make(const disk::SensorConfig& c
     if (!filters) return of_field(filters.error());
     const auto live = is_live(config);
     if (!live) return tl::unexpected(live.error());
+    if (const auto good = live_options(config); !good) return tl::unexpected(good.error());
     std::unique_ptr<SensorService> service(new SensorService(config, std::move(*filters)));
     if (*live) {
         auto input = open_live(config);

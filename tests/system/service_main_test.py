@@ -32,13 +32,9 @@ def thread_of(process, name):
 
 
 class ServiceMain(SystemTest):
-    SERVICES = {"tracker": {}, "recorder": {"output": "run.mcap"},
-                "sensor": {"scene": "overtake", "wait_for_subscribers": 5}}
-
     def test_sighup_stops_each_service_in_order(self):
-        for name, fields in self.SERVICES.items():
-            if "output" in fields:
-                fields = {"output": self.path("run.mcap")}
+        for name, fields in (("tracker", {}), ("recorder", {"output": self.path("run.mcap")}),
+                             ("sensor", {"scene": "overtake", "wait_for_subscribers": 5})):
             service = self.service(name, **fields)
             service.process.send_signal(signal.SIGHUP)
             self.assertEqual(service.wait(5), 0, service.err())
