@@ -6,6 +6,10 @@
 #include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
+#include <spdlog/spdlog.h>
+
+#include "services/common/qos.hpp"
+
 namespace pursuit {
 
 namespace dds = eprosima::fastdds::dds;
@@ -106,6 +110,16 @@ Participant::~Participant() {
     if (participant_ == nullptr) return;
     participant_->delete_contained_entities();
     dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+}
+
+void Participant::incompatible(const std::string& topic, dds::QosPolicyId_t policy) {
+    counts_.incompatible.fetch_add(1);
+    const std::scoped_lock lock(mutex_);
+    if (!told_incompatible_.emplace(topic, policy).second) return;
+    spdlog::warn(
+        "{}: a peer's {} does not fit ours, so that nothing passes between it and us "
+        "(idl/README.md, Topics)",
+        topic, policy_name(policy));
 }
 
 Result<dds::Topic*> Participant::topic(const std::string& name, dds::TypeSupport type) {

@@ -9,7 +9,10 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config.pb.h"
@@ -50,6 +53,9 @@ class Participant {
     eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
     eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
     TransportCounts& counts() { return counts_; }
+    /// A peer was not matched because of `policy`: counted, and told once for each topic and
+    /// policy.
+    void incompatible(const std::string& topic, eprosima::fastdds::dds::QosPolicyId_t policy);
     std::uint32_t heartbeat_ms() const { return heartbeat_ms_; }
 
  private:
@@ -61,6 +67,8 @@ class Participant {
     std::vector<eprosima::fastdds::dds::Topic*> topics_;
     std::uint32_t heartbeat_ms_ = 20;
     TransportCounts counts_;
+    std::mutex mutex_;
+    std::set<std::pair<std::string, int>> told_incompatible_;
 };
 
 }  // namespace pursuit

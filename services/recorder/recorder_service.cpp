@@ -166,6 +166,7 @@ v1::RecorderStatus RecorderService::status() {
     status.instance(instance_);
     status.health(health_.snapshot(participant_->counts()));
     activity_->fill(status);
+    count_peers(participant_->counts(), status.dropped_by());
     return status;
 }
 

@@ -219,6 +219,7 @@ v1::SensorStatus SensorService::status() const {
     cause("exposures.queue_full", counts.exposures_overtaken);
     cause("exposures.unsent_at_stop", counts.exposures_left);
     cause("packets.unacknowledged", counts.packets_unacknowledged);
+    count_peers(participant_->counts(), status.dropped_by());
     status.event_rate_hz(event_rate_hz_);
     status.lag_us(static_cast<double>(pacer_.lag_us()));
     status.host_clock_drift_ppm(publisher_->drift_ppm());

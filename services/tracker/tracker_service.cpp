@@ -143,6 +143,7 @@ v1::TrackerStatus TrackerService::status(const SessionFigures& figures) {
     const std::string described = describe(status);
     health_.state(status.health().state(), described);
     status.health(health_.snapshot(participant_->counts()));
+    count_peers(participant_->counts(), status.dropped_by());
     return status;
 }
 

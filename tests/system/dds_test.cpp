@@ -8,6 +8,7 @@
 #include <functional>
 #include <thread>
 
+#include "services/common/health.hpp"
 #include "services/common/request_client.hpp"
 #include "services/common/request_server.hpp"
 #include "tests/system/free_domain.hpp"
@@ -132,6 +133,28 @@ TEST_F(Dds, a_late_reader_gets_the_last_latched_sample) {
     auto reader = Reader<v1::TrackerStatus>::create(*two_, topic::tracker_status,
                                                     [&](auto& s, auto&) { seen = s.events_in(); });
     EXPECT_TRUE(eventually([&] { return seen == 42; }));
+}
+
+TEST_F(Dds, counts_a_peer_whose_quality_of_service_does_not_fit) {
+    auto writer = Writer<v1::SensorStatus>::create(*one_, topic::sensor_status);
+    ASSERT_TRUE(writer);
+    namespace dds = eprosima::fastdds::dds;
+    auto made =
+        two_->topic(topic::sensor_status,
+                    dds::TypeSupport(new GuardedType<v1::SensorStatus>(two_->counts().malformed)));
+    ASSERT_TRUE(made);
+    auto qos = reader_qos(Flow::latched);
+    qos.deadline().period = {1, 0};
+    ASSERT_NE(two_->subscriber().create_datareader(*made, qos), nullptr);
+    EXPECT_TRUE(eventually([&] { return one_->counts().incompatible == 1; }));
+    EXPECT_EQ((*writer)->matched(), 0);
+
+    std::vector<v1::NamedCount> counts;
+    count_peers(one_->counts(), counts);
+    count_peers(one_->counts(), counts);
+    ASSERT_EQ(counts.size(), 1U);
+    EXPECT_EQ(counts[0].name().to_string(), "peers.incompatible_qos");
+    EXPECT_EQ(counts[0].count(), 2U);
 }
 
 class Requests : public Dds {
