@@ -29,6 +29,19 @@ std::string digest_of(const google::protobuf::Message& message) {
 
 }  // namespace
 
+void count_peers(const TransportCounts& counts, std::vector<v1::NamedCount>& dropped_by) {
+    constexpr const char* cause = "peers.incompatible_qos";
+    for (auto& known : dropped_by) {
+        if (known.name().to_string() != cause) continue;
+        known.count(known.count() + counts.incompatible.load());
+        return;
+    }
+    v1::NamedCount count;
+    count.name(cause);
+    count.count(counts.incompatible.load());
+    dropped_by.push_back(count);
+}
+
 std::string bounded(const std::string& text, std::size_t bytes) { return text.substr(0, bytes); }
 
 const char* version() { return PURSUIT_VERSION; }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "services/common/participant.hpp"
 #include "status.h"
@@ -38,6 +39,9 @@ class Health {
     std::string configuration_digest_;
     std::int64_t start_host_time_ns_;
 };
+
+/// Adds to the counts of a status what its participant counted of peers.
+void count_peers(const TransportCounts& counts, std::vector<v1::NamedCount>& dropped_by);
 
 /// `text` cut to at most `bytes` bytes, as IDL string bounds demand.
 std::string bounded(const std::string& text, std::size_t bytes);

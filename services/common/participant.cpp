@@ -6,6 +6,10 @@
 #include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
+#include <spdlog/spdlog.h>
+
+#include "services/common/qos.hpp"
+
 namespace pursuit {
 
 namespace dds = eprosima::fastdds::dds;
@@ -62,9 +66,7 @@ dds::DomainParticipantQos participant_qos(const disk::Dds& settings, const std::
 
 }  // namespace
 
-Result<std::unique_ptr<Participant>> Participant::create(const disk::Dds& settings,
-                                                         const std::string& name,
-                                                         const std::string& sensor) {
+Result<void> Participant::check(const disk::Dds& settings) {
     for (int i = 0; i < settings.initial_peer_size(); ++i) {
         const auto& peer = settings.initial_peer(i);
         if (!eprosima::fastrtps::rtps::IPLocator::isIPv4(peer)) {
@@ -72,6 +74,13 @@ Result<std::unique_ptr<Participant>> Participant::create(const disk::Dds& settin
                               ": \"" + peer + "\" is no IPv4 address");
         }
     }
+    return {};
+}
+
+Result<std::unique_ptr<Participant>> Participant::create(const disk::Dds& settings,
+                                                         const std::string& name,
+                                                         const std::string& sensor) {
+    if (auto good = check(settings); !good) return tl::unexpected(good.error());
     std::unique_ptr<Participant> self(new Participant);
     self->heartbeat_ms_ = settings.heartbeat_ms();
     auto* factory = dds::DomainParticipantFactory::get_instance();
@@ -101,6 +110,16 @@ Participant::~Participant() {
     if (participant_ == nullptr) return;
     participant_->delete_contained_entities();
     dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+}
+
+void Participant::incompatible(const std::string& topic, dds::QosPolicyId_t policy) {
+    counts_.incompatible.fetch_add(1);
+    const std::scoped_lock lock(mutex_);
+    if (!told_incompatible_.emplace(topic, policy).second) return;
+    spdlog::warn(
+        "{}: a peer's {} does not fit ours, so that nothing passes between it and us "
+        "(idl/README.md, Topics)",
+        topic, policy_name(policy));
 }
 
 Result<dds::Topic*> Participant::topic(const std::string& name, dds::TypeSupport type) {

@@ -9,7 +9,10 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config.pb.h"
@@ -36,6 +39,8 @@ class Participant {
     static Result<std::unique_ptr<Participant>> create(const disk::Dds& settings,
                                                        const std::string& name,
                                                        const std::string& sensor);
+    /// Whether the settings are good; told with the field. Joins nothing.
+    static Result<void> check(const disk::Dds& settings);
     ~Participant();
     Participant(const Participant&) = delete;
     Participant& operator=(const Participant&) = delete;
@@ -48,6 +53,9 @@ class Participant {
     eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
     eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
     TransportCounts& counts() { return counts_; }
+    /// A peer was not matched because of `policy`: counted, and told once for each topic and
+    /// policy.
+    void incompatible(const std::string& topic, eprosima::fastdds::dds::QosPolicyId_t policy);
     std::uint32_t heartbeat_ms() const { return heartbeat_ms_; }
 
  private:
@@ -59,6 +67,8 @@ class Participant {
     std::vector<eprosima::fastdds::dds::Topic*> topics_;
     std::uint32_t heartbeat_ms_ = 20;
     TransportCounts counts_;
+    std::mutex mutex_;
+    std::set<std::pair<std::string, int>> told_incompatible_;
 };
 
 }  // namespace pursuit

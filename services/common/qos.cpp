@@ -89,4 +89,29 @@ dds::DataReaderQos reader_qos(Flow flow) {
     return qos;
 }
 
+std::string policy_name(dds::QosPolicyId_t policy) {
+    switch (policy) {
+        case dds::DURABILITY_QOS_POLICY_ID:
+            return "DURABILITY";
+        case dds::DEADLINE_QOS_POLICY_ID:
+            return "DEADLINE";
+        case dds::LATENCYBUDGET_QOS_POLICY_ID:
+            return "LATENCY_BUDGET";
+        case dds::OWNERSHIP_QOS_POLICY_ID:
+            return "OWNERSHIP";
+        case dds::LIVELINESS_QOS_POLICY_ID:
+            return "LIVELINESS";
+        case dds::RELIABILITY_QOS_POLICY_ID:
+            return "RELIABILITY";
+        case dds::DESTINATIONORDER_QOS_POLICY_ID:
+            return "DESTINATION_ORDER";
+        case dds::PRESENTATION_QOS_POLICY_ID:
+            return "PRESENTATION";
+        case dds::DATAREPRESENTATION_QOS_POLICY_ID:
+            return "DATA_REPRESENTATION";
+        default:
+            return "policy " + std::to_string(policy);
+    }
+}
+
 }  // namespace pursuit

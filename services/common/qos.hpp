@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+#include <string>
 
 namespace pursuit {
 
@@ -24,5 +25,8 @@ Flow flow_of(const char* topic);
 /// synchronous: asynchronous publishing costs milliseconds at the 99th percentile.
 eprosima::fastdds::dds::DataWriterQos writer_qos(Flow flow, std::uint32_t heartbeat_ms);
 eprosima::fastdds::dds::DataReaderQos reader_qos(Flow flow);
+
+/// A policy by which peers may fail to match, as DDS calls it.
+std::string policy_name(eprosima::fastdds::dds::QosPolicyId_t policy);
 
 }  // namespace pursuit

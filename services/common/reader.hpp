@@ -70,9 +70,10 @@ class Reader : private eprosima::fastdds::dds::DataReaderListener {
             static_cast<std::uint64_t>(status.total_count_change));
     }
     void on_requested_incompatible_qos(
-        eprosima::fastdds::dds::DataReader*,
-        const eprosima::fastdds::dds::RequestedIncompatibleQosStatus&) override {
-        participant_.counts().incompatible.fetch_add(1);
+        eprosima::fastdds::dds::DataReader* reader,
+        const eprosima::fastdds::dds::RequestedIncompatibleQosStatus& status) override {
+        participant_.incompatible(reader->get_topicdescription()->get_name(),
+                                  status.last_policy_id);
     }
 
     Participant& participant_;

@@ -4,21 +4,12 @@
 #include <fastdds/rtps/common/Guid.h>
 #include <fastdds/rtps/common/SampleIdentity.h>
 #include <algorithm>
-#include <array>
-#include <compare>
 #include <cstdint>
 
 #include "requests.h"
+#include "services/common/request_key.hpp"
 
 namespace pursuit {
-
-/// A request's identity in a form that can be compared: the writer's GUID and its count.
-struct RequestKey {
-    std::array<std::uint8_t, 16> writer_guid{};
-    std::int64_t sequence = 0;
-
-    auto operator<=>(const RequestKey&) const = default;
-};
 
 inline RequestKey key_of(const v1::RequestId& id) {
     RequestKey key;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <map>
@@ -9,6 +10,8 @@
 #include <optional>
 #include <string>
 
+#include "services/common/clock.hpp"
+#include "services/common/newcomer_repeats.hpp"
 #include "services/common/reader.hpp"
 #include "services/common/request_id.hpp"
 #include "services/common/writer.hpp"
@@ -25,8 +28,9 @@ namespace pursuit {
 ///
 /// A client may know of the server before the server knows of the client's reader: a reply sent in
 /// between would reach nobody. What was answered is sent again to a participant whose reader is
-/// matched later than that.
-/// Threads: the handler runs on the receiving thread and must not block; answer() from any.
+/// matched later than that; and what it is sent then may pass it by (NewcomerRepeats).
+/// Threads: the handler runs on the receiving thread and must not block; answer() and tick() from
+/// any.
 template <class Request, class Reply>
 class RequestServer {
  public:
@@ -68,6 +72,16 @@ class RequestServer {
         send(reply);
     }
 
+    /// Sends the replies again that are due for it; to be called at least every 100 ms.
+    void tick() {
+        const std::scoped_lock lock(mutex_);
+        for (const auto& key : repeats_.due(clock_.steady_ns())) {
+            if (const auto known = replies_.find(key); known != replies_.end()) {
+                write(known->second);
+            }
+        }
+    }
+
     /// Requests not taken because too many were pending: their senders hear nothing.
     std::uint64_t overflows() const { return overflows_.load(); }
     /// Replies that the middleware did not take.
@@ -100,13 +114,20 @@ class RequestServer {
     /// A participant's reader has come: what it was answered before, it has not heard.
     void greet(const eprosima::fastrtps::rtps::GuidPrefix_t& prefix) {
         const std::scoped_lock lock(mutex_);
+        ParticipantKey participant{};
+        std::copy_n(prefix.value, participant.size(), participant.begin());
+        repeats_.matched(participant, clock_.steady_ns());
         for (auto& [key, reply] : replies_) {
-            const auto identity = sample_identity(reply.header().related_request_id());
-            if (identity.writer_guid().guidPrefix == prefix) send(reply);
+            if (participant_of(key) == participant) send(reply);
         }
     }
 
     void send(Reply& reply) {
+        write(reply);
+        repeats_.sent(key_of(reply.header().related_request_id()), clock_.steady_ns());
+    }
+
+    void write(Reply& reply) {
         // Fast DDS clients find their reply by this; others by the header.
         eprosima::fastrtps::rtps::WriteParams params;
         params.related_sample_identity(sample_identity(reply.header().related_request_id()));
@@ -115,7 +136,9 @@ class RequestServer {
 
     const std::string instance_;
     const Handler handler_;
+    SystemClock clock_;
     std::mutex mutex_;
+    NewcomerRepeats repeats_;
     std::map<RequestKey, Reply> replies_;
     std::deque<RequestKey> order_;
     std::map<RequestKey, bool> pending_;

@@ -13,6 +13,7 @@
 
 #include "services/common/health.hpp"
 #include "services/common/log.hpp"
+#include "services/common/participant.hpp"
 #include "services/common/settings.hpp"
 #include "services/common/text_format.hpp"
 
@@ -21,13 +22,17 @@ namespace {
 
 constexpr auto tick_period = std::chrono::milliseconds(50);
 
-/// SIGTERM and SIGINT, taken by waiting for them. Must be made before any thread is.
+/// SIGTERM, SIGINT and SIGHUP, taken by waiting for them. Must be made before any thread is.
 class StopSignals {
  public:
     StopSignals() {
         ::sigemptyset(&set_);
         ::sigaddset(&set_, SIGTERM);
         ::sigaddset(&set_, SIGINT);
+        // A terminal that is closed. What was started by nohup(1) ignores it, and is to go on.
+        struct sigaction hangup {};
+        ::sigaction(SIGHUP, nullptr, &hangup);
+        if (hangup.sa_handler != SIG_IGN) ::sigaddset(&set_, SIGHUP);
         ::sigprocmask(SIG_BLOCK, &set_, nullptr);
         // A peer of a pipe or socket that goes away is an error value, not the end.
         ::signal(SIGPIPE, SIG_IGN);
@@ -46,11 +51,11 @@ class StopSignals {
     sigset_t set_{};
 };
 
-const char* name_of(int signal) { return signal == SIGTERM ? "SIGTERM" : "SIGINT"; }
-
-const disk::Log& log_settings(const google::protobuf::Message& configuration) {
-    const auto* field = configuration.GetDescriptor()->FindFieldByName("log");
-    return static_cast<const disk::Log&>(
+/// What the configuration of every service has, by the name of its field.
+template <class Part>
+const Part& part_of(const google::protobuf::Message& configuration, const char* name) {
+    const auto* field = configuration.GetDescriptor()->FindFieldByName(name);
+    return static_cast<const Part&>(
         configuration.GetReflection()->GetMessage(configuration, field));
 }
 
@@ -58,7 +63,7 @@ int run(Service& service, const std::string& name, const FieldPlaces& places,
         const StopSignals& signals) {
     if (auto started = service.start(); !started) {
         if (const int signal = signals.wait(std::chrono::nanoseconds(0))) {
-            spdlog::info("{} stops on {} while it starts: {}", name, name_of(signal),
+            spdlog::info("{} stops on SIG{} while it starts: {}", name, ::sigabbrev_np(signal),
                          started.error().message);
             service.stop();
             return exit_success;
@@ -69,16 +74,25 @@ int run(Service& service, const std::string& name, const FieldPlaces& places,
         service.stop();
         return exit_failure;
     }
+    std::string stalled;
     std::string status = service.status_line();
     ::sd_notifyf(0, "READY=1\nSTATUS=%s", status.c_str());
     spdlog::info("{} {} ready: {}", name, version(), status);
     while (!service.finished()) {
         if (const int signal = signals.wait(tick_period)) {
-            spdlog::info("{} stops on {}", name, name_of(signal));
+            spdlog::info("{} stops on SIG{}", name, ::sigabbrev_np(signal));
             break;
         }
         service.tick();
-        ::sd_notify(0, "WATCHDOG=1");
+        if (auto now = service.stalled(); now != stalled) {
+            stalled = std::move(now);
+            if (stalled.empty()) {
+                spdlog::info("{} gets on again", name);
+            } else {
+                spdlog::error("{}: {}; the watchdog is not told that all is well", name, stalled);
+            }
+        }
+        if (stalled.empty()) ::sd_notify(0, "WATCHDOG=1");
         if (auto now = service.status_line(); now != status) {
             status = std::move(now);
             ::sd_notifyf(0, "STATUS=%s", status.c_str());
@@ -98,7 +112,9 @@ bool may_go_on_starting() {
     // They are blocked, so that they wait to be taken.
     sigset_t pending{};
     ::sigpending(&pending);
-    if (::sigismember(&pending, SIGTERM) == 1 || ::sigismember(&pending, SIGINT) == 1) return false;
+    for (const int stop : {SIGTERM, SIGINT, SIGHUP}) {
+        if (::sigismember(&pending, stop) == 1) return false;
+    }
     ::sd_notify(0, "EXTEND_TIMEOUT_USEC=30000000");
     return true;
 }
@@ -129,10 +145,10 @@ int service_main(int argc, char** argv, const std::string& name,
         spdlog::error("{}: {}", name, read.error().message);
         return exit_configuration;
     }
-    start_log(log_settings(configuration));
+    start_log(part_of<disk::Log>(configuration, "log"));
     const StopSignals signals;
     try {
-        auto service = make();
+        auto service = Participant::check(part_of<disk::Dds>(configuration, "dds")).and_then(make);
         if (!service) {
             spdlog::error("{}: {}", name, places.located(service.error(), path).message);
             return exit_configuration;

@@ -15,7 +15,7 @@ namespace pursuit {
 ///
 ///   start() ──► tick() every 50 ms ──► stop()      (also when start() failed half-way)
 ///
-/// Threads: all four are called on the main thread.
+/// Threads: all of it is called on the main thread.
 class Service {
  public:
     virtual ~Service() = default;
@@ -29,6 +29,10 @@ class Service {
     virtual bool failed() const = 0;
     /// One line for systemd's STATUS: what it does, or what it waits for.
     virtual std::string status_line() const = 0;
+    /// Names a thread that does not get on any more. systemd's watchdog is not pinged then, and
+    /// restarts the service if that lasts. Empty: all is well. Waiting for peers, for the disk or
+    /// for the next event is no stall.
+    virtual std::string stalled() const { return ""; }
     /// Ends every thread and closes every file; at most 2 s.
     virtual void stop() = 0;
 };
@@ -42,9 +46,9 @@ enum ExitCode : int { exit_success = 0, exit_failure = 1, exit_configuration = 7
 
 /// The main() of a service: reads --config FILE and --set field=value into `configuration`,
 /// starts the log, makes the service, tells systemd READY when start() has returned, ticks until
-/// SIGTERM or SIGINT or until it has finished, and stops it. A second signal ends at once. A
-/// start() that gives up on a signal is no failure. `make` refuses a configuration by an Error; the
-/// process then ends with exit_configuration.
+/// SIGTERM, SIGINT or SIGHUP or until it has finished, and stops it. A second signal ends at once.
+/// A start() that gives up on a signal is no failure. `make` refuses a configuration by an Error;
+/// the process then ends with exit_configuration.
 int service_main(int argc, char** argv, const std::string& name,
                  google::protobuf::Message& configuration,
                  const std::function<Result<std::unique_ptr<Service>>()>& make);

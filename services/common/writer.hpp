@@ -89,9 +89,9 @@ class Writer : private eprosima::fastdds::dds::DataWriterListener {
         heard_(guid.guidPrefix);
     }
     void on_offered_incompatible_qos(
-        eprosima::fastdds::dds::DataWriter*,
-        const eprosima::fastdds::dds::OfferedIncompatibleQosStatus&) override {
-        participant_.counts().incompatible.fetch_add(1);
+        eprosima::fastdds::dds::DataWriter* writer,
+        const eprosima::fastdds::dds::OfferedIncompatibleQosStatus& status) override {
+        participant_.incompatible(writer->get_topic()->get_name(), status.last_policy_id);
     }
 
     Participant& participant_;

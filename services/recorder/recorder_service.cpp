@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/recorder/recorder_service.hpp"
 
+#include <filesystem>
+
 #include "services/recorder/record/record_activity.hpp"
 #include "services/recorder/replay/replay_activity.hpp"
 #include "services/recorder/replay/replay_topics.hpp"
@@ -39,6 +41,14 @@ v1::RecorderResult result_of(v1::RecorderCallKind kind) {
 Result<std::unique_ptr<Service>> RecorderService::make(const disk::RecorderConfig& configuration) {
     if (configuration.output().empty() == configuration.replay().empty()) {
         return fail("exactly one of the fields output and replay must be set");
+    }
+    std::error_code unseen;  // creating the file says what is in the way then
+    if (std::filesystem::is_directory(configuration.output(), unseen)) {
+        return fail_field("output", ": " + configuration.output() + " is a folder");
+    }
+    if (!configuration.replay().empty()) {
+        const auto found = ReplayActivity::check(configuration.replay());
+        if (!found) return fail_field("replay", ": " + found.error().message);
     }
     const double rate = configuration.rate();
     if (rate > 0 && rate < 0.001) {
@@ -94,6 +104,7 @@ Result<void> RecorderService::start() {
 
 void RecorderService::tick() {
     activity_->tick();
+    server_->tick();
     std::deque<v1::RecorderRequest> requests;
     {
         const std::scoped_lock lock(mutex_);
@@ -155,6 +166,7 @@ v1::RecorderStatus RecorderService::status() {
     status.instance(instance_);
     status.health(health_.snapshot(participant_->counts()));
     activity_->fill(status);
+    count_peers(participant_->counts(), status.dropped_by());
     return status;
 }
 

@@ -51,6 +51,7 @@ Result<std::unique_ptr<Service>> SensorService::make(const disk::SensorConfig& c
     if (!filters) return of_field(filters.error());
     const auto live = is_live(config);
     if (!live) return tl::unexpected(live.error());
+    if (const auto good = live_options(config); !good) return tl::unexpected(good.error());
     std::unique_ptr<SensorService> service(new SensorService(config, std::move(*filters)));
     if (*live) {
         auto input = open_live(config);
@@ -234,6 +235,7 @@ v1::SensorStatus SensorService::status(const Requests& server) const {
     cause("exposures.unsent_at_stop", counts.exposures_left);
     cause("packets.unacknowledged", counts.packets_unacknowledged);
     add_losses(status.dropped_by(), server);
+    count_peers(participant_->counts(), status.dropped_by());
     status.event_rate_hz(event_rate_hz_);
     status.lag_us(static_cast<double>(pacer_.lag_us()));
     status.host_clock_drift_ppm(publisher_->drift_ppm());
@@ -243,6 +245,7 @@ v1::SensorStatus SensorService::status(const Requests& server) const {
 
 void SensorService::tick() {
     set_filters();
+    requests_->tick();
     const auto now_ns = clock_.steady_ns();
     const auto state = service_state();
     const bool due = now_ns - last_status_ns_ >= status_period_ns;

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "services/sensor/formats/formats.hpp"
 #include "services/sensor/live/byte_stream_input.hpp"
 #include "services/sensor/live/driver_input.hpp"
 #include "services/sensor/range_reader.hpp"
@@ -54,6 +53,20 @@ Result<bool> is_live(const disk::SensorConfig& config) {
     return live;
 }
 
+Result<ReadOptions> live_options(const disk::SensorConfig& config) {
+    const auto geometry = geometry_of(config.live_geometry());
+    if (!geometry) return tl::unexpected(geometry.error());
+    std::string names;
+    for (const auto& format : formats()) {
+        if (format.name == config.live_format()) {
+            return ReadOptions{config.live_format(), *geometry, true};
+        }
+        names += (names.empty() ? "" : ", ") + std::string(format.name);
+    }
+    return fail_field("live_format",
+                      " is \"" + config.live_format() + "\", must be one of " + names);
+}
+
 Result<std::unique_ptr<LiveInput>> open_live(const disk::SensorConfig& config) {
     const std::chrono::milliseconds longest_wait(config.reconnect_ms());
     if (!config.driver().empty()) {
@@ -63,19 +76,10 @@ Result<std::unique_ptr<LiveInput>> open_live(const disk::SensorConfig& config) {
     }
     auto address = parse_live_address(config.live());
     if (!address) return fail_field("live", ": " + address.error().message);
-    const auto geometry = geometry_of(config.live_geometry());
-    if (!geometry) return tl::unexpected(geometry.error());
-    std::string names;
-    for (const auto& format : formats()) {
-        if (format.name == config.live_format()) {
-            ReadOptions options{config.live_format(), *geometry, true};
-            return std::make_unique<ByteStreamInput>(std::move(*address), std::move(options),
-                                                     longest_wait);
-        }
-        names += (names.empty() ? "" : ", ") + std::string(format.name);
-    }
-    return fail_field("live_format",
-                      " is \"" + config.live_format() + "\", must be one of " + names);
+    auto options = live_options(config);
+    if (!options) return tl::unexpected(options.error());
+    return std::make_unique<ByteStreamInput>(std::move(*address), std::move(*options),
+                                             longest_wait);
 }
 
 Result<std::unique_ptr<EventReader>> open_source(const disk::SensorConfig& config) {

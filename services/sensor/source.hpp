@@ -6,6 +6,7 @@
 
 #include "config.pb.h"
 #include "services/sensor/formats/event_reader.hpp"
+#include "services/sensor/formats/formats.hpp"
 #include "services/sensor/live/live_input.hpp"
 
 namespace pursuit::sensor {
@@ -16,6 +17,10 @@ std::string source_name(const disk::SensorConfig& config);
 /// Whether a configuration names a live source. An error where not exactly one source is named, or
 /// a live one with what only the others have: loop, start_s, end_s.
 Result<bool> is_live(const disk::SensorConfig& config);
+
+/// How the bytes of a live source are read: live_format and live_geometry. Beside another source
+/// they say nothing, and have to be good all the same.
+Result<ReadOptions> live_options(const disk::SensorConfig& config);
 
 /// Makes what hears the live source that a configuration names; an error where its address, format
 /// or driver are not good. Nothing is connected yet.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core_thread.hpp"
 
+#include <pthread.h>
+
 #include <utility>
 #include <variant>
 
@@ -25,6 +27,7 @@ void CoreThread::stop() {
 }
 
 SessionFigures CoreThread::figures() {
+    unserved_.fetch_add(1);
     figures_wanted_ = true;
     queue_.wake();
     const std::scoped_lock lock(mutex_);
@@ -37,6 +40,7 @@ void CoreThread::store_poses() {
 }
 
 void CoreThread::run() {
+    ::pthread_setname_np(::pthread_self(), "core");  // as top -H and debuggers show it
     for (;;) {
         auto work = queue_.pop();
         if (!work) {
@@ -59,6 +63,7 @@ void CoreThread::run() {
 
 void CoreThread::serve_wishes() {
     if (figures_wanted_.exchange(false)) {
+        unserved_ = 0;
         SessionFigures now = session_->figures();
         const std::scoped_lock lock(mutex_);
         figures_ = std::move(now);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -21,6 +22,10 @@ class CoreThread {
  public:
     using Reply = std::function<void(const v1::RequestId&, v1::TrackerReply)>;
 
+    /// Figures are asked for at every tick, each 50 ms: about 5 s. A packet or a call takes well
+    /// under one. Counted and not timed: a process that was halted as a whole is not stalled.
+    static constexpr std::uint32_t most_unserved = 100;
+
     CoreThread(std::unique_ptr<TrackerSession> session, TrackerQueue& queue, StoreWriter& store,
                Reply reply);
     ~CoreThread() { stop(); }
@@ -33,6 +38,8 @@ class CoreThread {
 
     /// Those of the last time they were asked for; asks for new ones.
     SessionFigures figures();
+    /// Whether that was asked so many times in turn without the thread having got to it.
+    bool stalled() const { return unserved_.load() >= most_unserved; }
     /// Hands the poses to the store, if event time has gone on since they were last.
     void store_poses();
 
@@ -46,6 +53,7 @@ class CoreThread {
     StoreWriter& store_;
     Reply reply_;
     std::atomic<bool> figures_wanted_{false};
+    std::atomic<std::uint32_t> unserved_{0};
     std::atomic<bool> store_wanted_{false};
     std::uint64_t stored_revision_ = 0;
     StoredMoment stored_moment_;

@@ -172,6 +172,7 @@ v1::TrackerStatus TrackerService::status(const SessionFigures& figures) {
     const std::string failure = store_ ? store_->failure() : "";
     health_.state(state_of(status, figures, failure), describe(status, figures, failure));
     status.health(health_.snapshot(participant_->counts()));
+    count_peers(participant_->counts(), status.dropped_by());
     return status;
 }
 
@@ -182,11 +183,16 @@ void TrackerService::tick() {
         store_->retry();
         core_->store_poses();
     }
+    requests_->tick();
     publish_status();
 }
 
 void TrackerService::publish_status() {
     auto now = status(core_->figures());
+    if (const auto what = stalled(); !what.empty()) {
+        now.health().state(v1::SERVICE_FAULT);
+        now.health().detail(what);
+    }
     described_ = now.health().detail().to_string();
     const std::int64_t now_ns = clock_.steady_ns();
     const bool changed = now.health().state() != last_state_ || now.objects() != last_objects_ ||
@@ -227,14 +233,18 @@ void TrackerService::publish_last_status() {
     status_->wait_acknowledged({0, 200'000'000});
 }
 
+std::string TrackerService::stalled() const {
+    return core_->stalled() ? "the core thread has done nothing for 5 s" : "";
+}
+
 void TrackerService::stop() {
     // No more work comes in, then none is done, then what was done is kept and told.
     events_.reset();
     if (core_) core_->stop();
     if (core_ && requests_) count_rest();
-    requests_.reset();
     store_.reset();
     if (core_) publish_last_status();
+    requests_.reset();
     core_.reset();
 }
 

@@ -35,6 +35,7 @@ class TrackerService final : public Service {
     bool finished() const override { return false; }
     bool failed() const override { return false; }
     std::string status_line() const override { return described_; }
+    std::string stalled() const override;
     void stop() override;
 
  private:

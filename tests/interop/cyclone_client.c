@@ -60,7 +60,9 @@ static void wait_for_service(dds_entity_t writer, dds_entity_t reader) {
     exit(1);
 }
 
-// Sends the request under a new id and gives the reply to it; the replies to others are left.
+// Sends the request under a new id and gives the reply to it; the replies to others are left. A
+// reader that has just been matched may miss a reply, so the same request, under the same id, is
+// written again every 500 ms: it is answered again, and not applied again.
 static pursuit_v1_TrackerReply* call(dds_entity_t writer, dds_entity_t reader,
                                      pursuit_v1_TrackerRequest* request) {
     static uint32_t sequence = 0;
@@ -70,8 +72,8 @@ static pursuit_v1_TrackerReply* call(dds_entity_t writer, dds_entity_t reader,
     memcpy(id->writer_guid, guid.v, 16);
     id->sequence_high = 0;
     id->sequence_low = ++sequence;
-    check(dds_write(writer, request), "dds_write");
     for (int i = 0; i < 500; ++i) {
+        if (i % 50 == 0) check(dds_write(writer, request), "dds_write");
         void* samples[1] = {NULL};
         dds_sample_info_t info;
         const int taken = dds_take(reader, samples, &info, 1, 1);

@@ -42,6 +42,15 @@ class Cyclone(SystemTest):
         self.assertEqual(printing.wait(30), 0, printing.out()[-500:] + printing.err())
         self.assertIn("us  star  TRACKING  confidence", printing.out())
 
+    def test_a_cyclone_dds_program_that_asks_once_is_answered_by_a_tracker_that_answered_before(self):
+        self.service("tracker")
+        self.ctl("model", "list")  # so that there are replies which the next client has missed
+        client = os.path.join(os.environ["PURSUIT_TESTS"], "cyclone_once")
+        for _ in range(15):
+            asking = self.start(client, self.domain.domain, ready=False,
+                                environment={"CYCLONEDDS_URI": LOOPBACK})
+            self.assertEqual(asking.wait(30), 0, asking.err())
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

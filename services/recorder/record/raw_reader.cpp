@@ -125,8 +125,8 @@ void RawReader::on_sample_rejected(dds::DataReader*,
 }
 
 void RawReader::on_requested_incompatible_qos(dds::DataReader*,
-                                              const dds::RequestedIncompatibleQosStatus&) {
-    participant_.counts().incompatible.fetch_add(1);
+                                              const dds::RequestedIncompatibleQosStatus& status) {
+    participant_.incompatible(topic_.name, status.last_policy_id);
 }
 
 }  // namespace pursuit::recorder

@@ -152,6 +152,7 @@ void RecordActivity::fill(v1::RecorderStatus& status) const {
         const auto& counts = participant_->counts();
         auto& health = status.health();
         health.lost_samples(health.lost_samples() + counts.lost.load() + counts.rejected.load());
+        count_peers(counts, status.dropped_by());
     }
 }
 

@@ -43,9 +43,9 @@ class RawWriter : private eprosima::fastdds::dds::DataWriterListener {
         matched_.store(status.current_count);
     }
     void on_offered_incompatible_qos(
-        eprosima::fastdds::dds::DataWriter*,
-        const eprosima::fastdds::dds::OfferedIncompatibleQosStatus&) override {
-        participant_.counts().incompatible.fetch_add(1);
+        eprosima::fastdds::dds::DataWriter* writer,
+        const eprosima::fastdds::dds::OfferedIncompatibleQosStatus& status) override {
+        participant_.incompatible(writer->get_topic()->get_name(), status.last_policy_id);
     }
 
     Participant& participant_;

@@ -36,12 +36,15 @@ ReplayActivity::ReplayActivity(const disk::RecorderConfig& configuration, Health
 
 ReplayActivity::~ReplayActivity() { stop(); }
 
-Result<void> ReplayActivity::start() {
-    // A file that is not there or no recording is told at once.
-    auto input = mcap::FileInput::open(configuration_.replay());
+Result<void> ReplayActivity::check(const std::string& path) {
+    auto input = mcap::FileInput::open(path);
     if (!input) return tl::unexpected(input.error());
-    auto reader = mcap::Reader::open(std::move(*input), configuration_.replay());
+    auto reader = mcap::Reader::open(std::move(*input), path);
     if (!reader) return tl::unexpected(reader.error());
+    return {};
+}
+
+Result<void> ReplayActivity::start() {
     thread_ = std::thread([this] { run(); });
     return {};
 }

@@ -35,6 +35,8 @@ class ReplayActivity final : public Activity {
  public:
     ReplayActivity(const disk::RecorderConfig& configuration, Health& health);
     ~ReplayActivity() override;
+    /// Whether the file is there and a recording; damage further on shows as it is replayed.
+    static Result<void> check(const std::string& path);
 
     Result<void> start() override;
     void tick() override {}

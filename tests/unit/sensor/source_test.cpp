@@ -99,5 +99,16 @@ TEST(OpenSource, needs_exactly_one_source_and_a_range_that_holds_time) {
     EXPECT_THAT(open_source(config).error().message, HasSubstr("0 to 9e12 s"));
 }
 
+TEST(LiveOptions, are_judged_beside_a_scene_too) {
+    disk::SensorConfig config;
+    config.set_scene("overtake");
+    EXPECT_TRUE(live_options(config));
+    config.set_live_geometry("wide");
+    EXPECT_EQ(live_options(config).error().field, "live_geometry");
+    config.set_live_geometry("640x480");
+    config.set_live_format("no_such");
+    EXPECT_EQ(live_options(config).error().field, "live_format");
+}
+
 }  // namespace
 }  // namespace pursuit::sensor
