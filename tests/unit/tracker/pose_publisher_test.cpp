@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/manual_clock.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
 TEST(PosePublisher, sends_what_it_has_gathered_of_an_object_that_is_removed) {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     std::vector<v1::PoseTrack> tracks;
     PosePublisher publisher(
         1, clock, [](v1::ObjectPose&) { return true; },

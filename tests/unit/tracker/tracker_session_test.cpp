@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "tests/support/manual_clock.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
 
 namespace pursuit::tracker {
@@ -22,7 +23,7 @@ struct Restarted {
                [this](const std::string& message) { errors.push_back(message); },
                [](const PoseRecord&) {}}) {}
 
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     std::vector<std::string> errors;
     TrackerSession session;
 };

@@ -5,15 +5,17 @@
 
 #include <algorithm>
 
+#include "tests/support/manual_clock.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
-v1::TrackerStatus status_of(const SessionFigures& figures, ManualClock& clock) {
+v1::TrackerStatus status_of(const SessionFigures& figures, pursuit::test::ManualClock& clock) {
     return tracker_status({}, figures, {}, IntakeCounters{}, clock);
 }
 
 TEST(TrackerStatus, tells_how_far_behind_the_tracker_was_when_it_was_asked) {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     SessionFigures figures;
     figures.last_t_us = 5;
     figures.last_host_time_ns = 1'000'000;
@@ -24,14 +26,14 @@ TEST(TrackerStatus, tells_how_far_behind_the_tracker_was_when_it_was_asked) {
 }
 
 TEST(TrackerStatus, before_the_first_event_has_no_lag) {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     SessionFigures figures;
     figures.taken_host_time_ns = 3'500'000;
     EXPECT_EQ(status_of(figures, clock).lag_us(), 0);
 }
 
 TEST(TrackerStatus, says_how_often_objects_were_lost_and_why_apart_from_what_was_dropped) {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     SessionFigures figures;
     figures.tracker.lost_by[static_cast<std::size_t>(LossCause::gone)] = 3;
     const auto status = status_of(figures, clock);
