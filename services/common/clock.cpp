@@ -2,9 +2,6 @@
 #include "services/common/clock.hpp"
 
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <utility>
 
 namespace pursuit {
 
@@ -28,28 +25,6 @@ void SystemClock::wait_until(std::unique_lock<std::mutex>& lock, std::condition_
     } else {
         condition.wait_until(lock, steady_clock::time_point(nanoseconds(deadline_ns)));
     }
-}
-
-void ManualClock::wait_until(std::unique_lock<std::mutex>& lock,
-                             std::condition_variable& /*condition*/, std::int64_t deadline_ns) {
-    if (!actions_.empty() && actions_.begin()->first <= deadline_ns) {
-        auto node = actions_.extract(actions_.begin());
-        now_ns_ = std::max(now_ns_, node.key());
-        lock.unlock();
-        node.mapped()();
-        lock.lock();
-        return;
-    }
-    if (deadline_ns == never_ns) {
-        // A test that waits for ever would hang; nothing it could check comes after this.
-        std::fputs("ManualClock: a wait without an end, and no action left to end it\n", stderr);
-        std::abort();
-    }
-    now_ns_ = std::max(now_ns_, deadline_ns);
-}
-
-void ManualClock::at(std::int64_t when_ns, std::function<void()> action) {
-    actions_.emplace(when_ns, std::move(action));
 }
 
 }  // namespace pursuit

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/sensor/source.hpp"
 
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
+#include "services/common/geometry_text.hpp"
 #include "services/sensor/live/byte_stream_input.hpp"
 #include "services/sensor/live/driver_input.hpp"
 #include "services/sensor/range_reader.hpp"
@@ -17,17 +17,11 @@ namespace {
 /// "640x480"; empty text: none.
 Result<std::optional<Geometry>> geometry_of(const std::string& text) {
     if (text.empty()) return std::optional<Geometry>{};
-    Geometry geometry;
-    const auto* end = text.data() + text.size();
-    const auto width = std::from_chars(text.data(), end, geometry.width);
-    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-        const auto height = std::from_chars(width.ptr + 1, end, geometry.height);
-        if (height.ec == std::errc() && height.ptr == end && geometry.width > 0 &&
-            geometry.height > 0 && geometry.height <= 32768) {
-            return geometry;
-        }
+    const auto geometry = parse_geometry(text);
+    if (!geometry) {
+        return fail_field("live_geometry", " is \"" + text + "\", must be WxH, as 640x480");
     }
-    return fail_field("live_geometry", " is \"" + text + "\", must be WxH, as 640x480");
+    return geometry;
 }
 
 }  // namespace

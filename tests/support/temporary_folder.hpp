@@ -12,7 +12,7 @@
 
 namespace pursuit::test {
 
-/// A folder of a test's own, gone at its end.
+/// A folder of a test's own, gone at its end unless it is to be kept.
 class TemporaryFolder {
  public:
     TemporaryFolder() {
@@ -24,8 +24,11 @@ class TemporaryFolder {
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
     ~TemporaryFolder() {
         std::error_code error;
-        std::filesystem::remove_all(path_, error);
+        if (!kept_) std::filesystem::remove_all(path_, error);
     }
+
+    /// What is in it may tell why the test failed.
+    void keep() { kept_ = true; }
 
     std::string path(const std::string& name) const { return (path_ / name).string(); }
 
@@ -37,6 +40,7 @@ class TemporaryFolder {
 
  private:
     std::filesystem::path path_;
+    bool kept_ = false;
 };
 
 inline std::string content_of(const std::string& path) {

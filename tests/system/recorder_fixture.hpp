@@ -3,9 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -15,6 +13,7 @@
 #include "services/common/request_client.hpp"
 #include "services/recorder/mcap/reader.hpp"
 #include "services/recorder/replay/raw_writer.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/system/child_process.hpp"
 #include "tests/system/free_domain.hpp"
 
@@ -109,17 +108,15 @@ inline v1::EventPacket packet_number(std::uint64_t number, std::uint64_t stream_
 class RecorderTest : public ::testing::Test {
  protected:
     RecorderTest() {
-        char pattern[] = "/tmp/pursuit-recorder-XXXXXX";
-        folder_ = ::mkdtemp(pattern);
         auto made = Participant::create(domain_.settings(), "test", "");
         EXPECT_TRUE(made) << made.error().message;
         participant_ = std::move(*made);
     }
     ~RecorderTest() override {
-        if (!HasFailure()) std::filesystem::remove_all(folder_);
+        if (HasFailure()) folder_.keep();
     }
 
-    std::string path(const std::string& name) const { return folder_ + "/" + name; }
+    std::string path(const std::string& name) const { return folder_.path(name); }
 
     /// A recorder with field=value settings.
     std::unique_ptr<ChildProcess> recorder(
@@ -140,7 +137,7 @@ class RecorderTest : public ::testing::Test {
     }
 
     FreeDomain domain_;
-    std::string folder_;
+    test::TemporaryFolder folder_;
     std::unique_ptr<Participant> participant_;
 };
 

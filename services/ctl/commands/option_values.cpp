@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/ctl/commands/option_values.hpp"
 
-#include <charconv>
 #include <cmath>
 
+#include "services/common/geometry_text.hpp"
 #include "services/sensor/formats/formats.hpp"
 
 namespace pursuit::ctl {
@@ -29,17 +29,9 @@ CLI::Validator finite_range(double least, double most) {
 
 Result<std::optional<Geometry>> geometry_of(const std::string& text) {
     if (text.empty()) return std::optional<Geometry>{};
-    Geometry geometry;
-    const auto* end = text.data() + text.size();
-    const auto width = std::from_chars(text.data(), end, geometry.width);
-    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-        const auto height = std::from_chars(width.ptr + 1, end, geometry.height);
-        if (height.ec == std::errc() && height.ptr == end && geometry.width > 0 &&
-            geometry.height > 0) {
-            return geometry;
-        }
-    }
-    return fail("--geometry: \"" + text + "\" is not WxH, as in 640x480");
+    const auto geometry = parse_geometry(text);
+    if (!geometry) return fail("--geometry: \"" + text + "\" is not WxH, as in 640x480");
+    return geometry;
 }
 
 }  // namespace pursuit::ctl

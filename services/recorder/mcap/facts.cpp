@@ -110,22 +110,4 @@ Bytes encode(const InstanceState& state) {
     return data;
 }
 
-Result<InstanceState> decode_instance_state(ByteSpan data) {
-    ByteReader in(data);
-    const auto flags = in.u8();
-    const auto hash = in.bytes(16);
-    const auto key = in.bytes(in.remaining());
-    if (!in.ok()) {
-        return fail("an instance state of " + std::to_string(data.size()) +
-                    " bytes; it has at least 17");
-    }
-    InstanceState state;
-    state.disposed = (flags & disposed_flag) != 0;
-    state.unregistered = (flags & unregistered_flag) != 0;
-    if ((flags & key_hash_flag) != 0)
-        std::copy_n(hash.begin(), 16, state.key_hash.emplace().begin());
-    state.key.assign(key.begin(), key.end());
-    return state;
-}
-
 }  // namespace pursuit::recorder::mcap

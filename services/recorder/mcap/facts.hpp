@@ -67,6 +67,5 @@ struct InstanceState {
 inline constexpr std::string_view instance_state_encoding = "pursuit.instance_state.v1";
 
 Bytes encode(const InstanceState& state);
-Result<InstanceState> decode_instance_state(ByteSpan data);
 
 }  // namespace pursuit::recorder::mcap

@@ -24,12 +24,12 @@ Result<std::unique_ptr<FileOutput>> FileOutput::create(const std::string& path) 
     const auto folder = std::filesystem::path(path).parent_path();
     const int directory =
         ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (directory < 0) return fail(output_error(path, "open the folder of"));
-    const bool synced = ::fsync(directory) == 0;
-    const std::string error = synced ? "" : output_error(path, "sync the folder of");
-    ::close(directory);
-    if (!synced) return fail(error);
-    return output;
+    const bool synced = directory >= 0 && ::fsync(directory) == 0;
+    const std::string error = output_error(path, "sync the folder of");
+    if (directory >= 0) ::close(directory);
+    if (synced) return output;
+    ::unlink(path.c_str());
+    return fail(error);
 }
 
 FileOutput::~FileOutput() { ::close(file_); }

@@ -25,7 +25,8 @@ class Output {
 class FileOutput final : public Output {
  public:
     /// Creates `path`, which must not exist yet: a recording never replaces another. The folder is
-    /// synced, so that the file's name survives a power cut as well.
+    /// synced, so that the file's name survives a power cut as well. After an error there is no
+    /// file but one that was there.
     static Result<std::unique_ptr<FileOutput>> create(const std::string& path);
 
     /// Writes to an open file descriptor and closes it in the end. `path` is for messages.

@@ -53,20 +53,16 @@ Result<void> FileSequence::open(const Now& now) {
 }
 
 Result<RecordingFile> FileSequence::begin_file(const std::string& path, const Now& now) {
-    std::error_code ignored;  // the error at hand is the one that matters
-    auto made = options_.create(path).and_then([&](std::unique_ptr<mcap::Output> output) {
-        return RecordingFile::create(std::move(output), path, options_.writer, now.steady_us,
-                                     topics_, discovered_);
-    });
-    if (!made) {
-        if (std::filesystem::is_regular_file(path, ignored) &&
-            std::filesystem::file_size(path, ignored) < 64) {
-            std::filesystem::remove(path, ignored);
-        }
-    } else if (const auto ok = write_latched(*made); !ok) {
-        std::filesystem::remove(path, ignored);
-        return tl::unexpected(ok.error());
+    auto output = options_.create(path);
+    // What may be there by that name is another's, as of a recorder that was faster.
+    if (!output) return tl::unexpected(output.error());
+    auto made = RecordingFile::create(std::move(*output), path, options_.writer, now.steady_us,
+                                      topics_, discovered_);
+    if (made) {
+        if (const auto ok = write_latched(*made); !ok) made = tl::unexpected(ok.error());
     }
+    std::error_code ignored;  // the error at hand is the one that matters
+    if (!made) std::filesystem::remove(path, ignored);
     return made;
 }
 

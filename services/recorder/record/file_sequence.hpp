@@ -71,7 +71,7 @@ class FileSequence {
  public:
     using OnError = std::function<void(const std::string&)>;
 
-    /// `event_topics`: those whose messages are EventPackets, by index. `topics` must outlive this.
+    /// `topics` must outlive this.
     FileSequence(FileOptions options, const std::vector<TopicFacts>& topics,
                  RecordingFile::Discovered discovered, OnError on_error);
 

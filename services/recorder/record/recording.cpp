@@ -60,10 +60,14 @@ void Recording::new_file(NewFileDone done) {
 
 void Recording::stop(std::chrono::milliseconds at_most) {
     if (!thread_.joinable()) return;
+    ask_to_stop(at_most);
+    thread_.join();
+}
+
+void Recording::ask_to_stop(std::chrono::milliseconds at_most) {
     stop_at_us_.store(now().steady_us + at_most.count() * 1000);
     stopping_.store(true);
     queue_.wake();
-    thread_.join();
 }
 
 RecordingFigures Recording::figures() const {
@@ -91,7 +95,7 @@ void Recording::run() {
             queue_.take(last ? std::chrono::milliseconds(0) : period_, samples_a_turn);
         if (last && samples.empty()) break;
         for (const auto& sample : samples) {
-            if (last && now().steady_us > stop_at_us_.load()) {
+            if (last && now().steady_us >= stop_at_us_.load()) {
                 count(sample.topic, DropCause::stopping, 1);
                 continue;
             }

@@ -59,6 +59,8 @@ class Recording {
 
     /// Writes what waits, for at most `at_most`, and closes the file.
     void stop(std::chrono::milliseconds at_most);
+    /// Begins that and does not wait for its end; stop() must follow.
+    void ask_to_stop(std::chrono::milliseconds at_most);
 
     RecordingFigures figures() const;
     const std::vector<TopicFacts>& topics() const { return topics_; }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <optional>
 #include <string_view>
 
 #include "services/recorder/mcap/bytes.hpp"
@@ -18,15 +16,6 @@ inline mcap::Bytes encode_related(const SampleId& id) {
     mcap::Bytes out(id.writer.begin(), id.writer.end());
     mcap::ByteWriter(out).u64(static_cast<std::uint64_t>(id.sequence));
     return out;
-}
-
-inline std::optional<SampleId> decode_related(mcap::ByteSpan data) {
-    if (data.size() != 24) return std::nullopt;
-    mcap::ByteReader reader(data);
-    SampleId id;
-    std::ranges::copy(reader.bytes(16), id.writer.begin());
-    id.sequence = static_cast<std::int64_t>(reader.u64());
-    return id;
 }
 
 }  // namespace pursuit::recorder

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 
+#include "tests/support/largest_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace pursuit {
@@ -114,6 +115,20 @@ TEST(WriteOutput, writes_into_a_file_that_has_lost_its_name) {
     EXPECT_EQ(::read(file, bytes, sizeof(bytes)), 5);
     ::close(file);
     EXPECT_EQ(files_in(folder), 0);
+}
+
+TEST(WriteFileAtomically, keeps_the_old_content_where_only_a_part_of_the_new_finds_room) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.file("a", "old");
+    Result<void> ok;
+    {
+        const test::LargestFile bound(60);
+        ok = write_file_atomically(path, std::string(100, 'n'));
+    }
+    ASSERT_FALSE(ok);
+    EXPECT_EQ(ok.error().message, path + ": cannot write: File too large");
+    EXPECT_EQ(test::content_of(path), "old");
+    EXPECT_EQ(files_in(folder), 1);
 }
 
 TEST(WriteFileAtomically, says_why_it_cannot_write) {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "tests/support/largest_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace pursuit {
@@ -75,6 +76,21 @@ TEST(Output, says_that_a_disk_is_full) {
     auto file = OutputFile::create("/dev/full");
     ASSERT_TRUE(file && file->write("new"));
     EXPECT_THAT(file->close().error().message, testing::StartsWith("/dev/full: cannot write: "));
+}
+
+TEST(Output, of_which_only_a_part_finds_room_is_an_error) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.path("a.csv");
+    auto file = OutputFile::create(path);
+    ASSERT_TRUE(file && file->write(std::string(100, 'n')));
+    Result<void> ok;
+    {
+        const test::LargestFile bound(60);
+        ok = file->close();
+    }
+    ASSERT_FALSE(ok);
+    EXPECT_EQ(ok.error().message, path + ": cannot write: File too large");
+    EXPECT_EQ(std::filesystem::file_size(path), 60U);
 }
 
 }  // namespace

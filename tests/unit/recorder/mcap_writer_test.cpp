@@ -10,6 +10,8 @@
 #include <filesystem>
 
 #include "services/recorder/mcap/summary.hpp"
+#include "tests/support/largest_file.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/recorder/mcap_sample.hpp"
 
 namespace pursuit::recorder::mcap {
@@ -168,6 +170,25 @@ TEST(McapWriter, an_unknown_publish_time_becomes_the_log_time) {
     EXPECT_EQ(read_all(open.disk->data).messages[0].publish_time_ns, 77);
 }
 
+TEST(McapWriter, definitions_are_bounded_in_their_sum) {
+    WriterOptions options;
+    options.max_definition_bytes = 2000;
+    OpenWriter open(options);
+    const std::string text(800, 'x');
+    EXPECT_TRUE(open.writer.add_schema("a", "omgidl", text));
+    EXPECT_TRUE(open.writer.add_schema("b", "omgidl", text));
+    EXPECT_FALSE(open.writer.add_schema("c", "omgidl", text));
+}
+
+TEST(McapWriter, the_start_and_end_are_those_of_messages_in_any_order) {
+    OpenWriter open;
+    for (const std::int64_t time_ns : {77, 50, 99, 60}) {
+        ASSERT_TRUE(open.writer.write({open.channel, 0, time_ns, time_ns}, as_bytes("a")));
+    }
+    EXPECT_EQ(open.writer.totals().start_time_ns, 50);
+    EXPECT_EQ(open.writer.totals().end_time_ns, 99);
+}
+
 TEST(McapWriter, a_disk_that_fails_at_any_call_gives_an_error_and_leaves_a_readable_file) {
     // Writes 5 chunks of 4 messages; counts the calls of a run without a failure first.
     const auto run = [](const std::shared_ptr<MemoryOutput::Disk>& disk) {
@@ -262,35 +283,24 @@ TEST(McapWriter, a_full_chunk_index_is_left_out_and_no_message_with_it) {
     EXPECT_TRUE(read_summary(input)->chunks.empty());
 }
 
-class McapFile : public testing::Test {
- protected:
-    McapFile()
-        : folder_(std::filesystem::temp_directory_path() / ("mcap_" + std::to_string(::getpid()))) {
-        std::filesystem::create_directories(folder_);
-    }
-    ~McapFile() override { std::filesystem::remove_all(folder_); }
-    std::string path(const char* name) const { return folder_ / name; }
-
- private:
-    std::filesystem::path folder_;
-};
-
-TEST_F(McapFile, a_recording_never_replaces_another) {
-    ASSERT_TRUE(FileOutput::create(path("a.mcap")));
-    const auto again = FileOutput::create(path("a.mcap"));
+TEST(McapFile, a_recording_never_replaces_another) {
+    const test::TemporaryFolder folder;
+    ASSERT_TRUE(FileOutput::create(folder.path("a.mcap")));
+    const auto again = FileOutput::create(folder.path("a.mcap"));
     ASSERT_FALSE(again);
     EXPECT_THAT(again.error().message, HasSubstr("a.mcap: cannot create: File exists"));
 }
 
-TEST_F(McapFile, a_file_that_cannot_be_opened_is_named) {
-    const auto missing = FileInput::open(path("none.mcap"));
+TEST(McapFile, a_file_that_cannot_be_opened_is_named) {
+    const test::TemporaryFolder folder;
+    const auto missing = FileInput::open(folder.path("none.mcap"));
     ASSERT_FALSE(missing);
     EXPECT_THAT(missing.error().message, HasSubstr("none.mcap: cannot open: No such file"));
-    EXPECT_THAT(FileInput::open(path("")).error().message, HasSubstr("not a regular file"));
-    EXPECT_FALSE(FileOutput::create(path("no/such/folder.mcap")));
+    EXPECT_THAT(FileInput::open(folder.path("")).error().message, HasSubstr("not a regular file"));
+    EXPECT_FALSE(FileOutput::create(folder.path("no/such/folder.mcap")));
 }
 
-TEST_F(McapFile, a_full_disk_is_an_error) {
+TEST(McapFile, a_full_disk_is_an_error) {
     const int file = ::open("/dev/full", O_WRONLY);
     ASSERT_GE(file, 0);
     const auto writer = Writer::create(std::make_unique<FileOutput>(file, "/dev/full"), {}, 0);
@@ -298,11 +308,37 @@ TEST_F(McapFile, a_full_disk_is_an_error) {
     EXPECT_EQ(writer.error().message, "/dev/full: cannot write: No space left on device");
 }
 
-TEST_F(McapFile, a_writer_that_is_killed_loses_only_its_open_chunk) {
+TEST(McapFile, of_which_only_a_part_finds_room_is_an_error) {
+    const test::TemporaryFolder folder;
+    auto output = FileOutput::create(folder.path("a.mcap"));
+    ASSERT_TRUE(output);
+    Result<void> ok;
+    {
+        const test::LargestFile bound(60);
+        ok = (*output)->write(Bytes(100, 1));
+    }
+    ASSERT_FALSE(ok);
+    EXPECT_EQ(ok.error().message, folder.path("a.mcap") + ": cannot write: File too large");
+    EXPECT_EQ(std::filesystem::file_size(folder.path("a.mcap")), 60U);
+}
+
+TEST(McapFile, that_cannot_be_flushed_is_an_error) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    FileOutput pipe(ends[1], "pipe");  // fdatasync(2) takes no pipe
+    ASSERT_TRUE(pipe.write(as_bytes("data")));
+    const auto ok = pipe.flush();
+    ASSERT_FALSE(ok);
+    EXPECT_EQ(ok.error().message, "pipe: cannot flush: Invalid argument");
+    ::close(ends[0]);
+}
+
+TEST(McapFile, a_writer_that_is_killed_loses_only_its_open_chunk) {
+    const test::TemporaryFolder folder;
     const auto child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-        auto output = FileOutput::create(path("killed.mcap"));
+        auto output = FileOutput::create(folder.path("killed.mcap"));
         auto writer = Writer::create(std::move(*output), {}, 0);
         const auto schema = writer->add_schema("T", "omgidl", "struct T { long a; };");
         const auto channel = writer->add_channel(*schema, "topic", "cdr", {});
@@ -315,7 +351,7 @@ TEST_F(McapFile, a_writer_that_is_killed_loses_only_its_open_chunk) {
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     ASSERT_TRUE(WIFSIGNALED(status));
-    auto reader = Reader::open(*FileInput::open(path("killed.mcap")), "killed.mcap");
+    auto reader = Reader::open(*FileInput::open(folder.path("killed.mcap")), "killed.mcap");
     const auto back = read_all(reader);
     EXPECT_GE(back.messages.size(), 95U);
     EXPECT_LT(back.messages.size(), 105U);

@@ -103,5 +103,14 @@ TEST(StreamGaps, counts_jumps_within_a_stream_and_not_where_one_begins) {
     EXPECT_EQ(gaps.missed(), 2U);
 }
 
+TEST(StreamGaps, remembers_no_more_than_1024_streams) {
+    StreamGaps gaps;
+    for (std::uint64_t stream = 1; stream <= 1024; ++stream) EXPECT_FALSE(gaps.take(0, stream, 5));
+    EXPECT_TRUE(gaps.take(0, 1, 10));
+    EXPECT_FALSE(gaps.take(0, 1025, 5));
+    EXPECT_FALSE(gaps.take(0, 1, 20)) << "the first was forgotten for the last";
+    EXPECT_TRUE(gaps.take(0, 1, 30)) << "and is remembered again";
+}
+
 }  // namespace
 }  // namespace pursuit::recorder

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "tests/support/manual_clock.hpp"
 #include "tests/unit/sensor/sent_packets.hpp"
 
 namespace pursuit::sensor {
@@ -53,7 +54,7 @@ struct Published {
     }
 
     disk::SensorConfig config;
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     Pacer pacer{clock, 0};
     std::unique_ptr<FilterSwitch> filters = std::move(*FilterSwitch::make({}));
     SentPackets sent;

@@ -5,13 +5,15 @@
 
 #include <thread>
 
+#include "tests/support/manual_clock.hpp"
+
 namespace pursuit::sensor {
 namespace {
 
 constexpr std::int64_t ms = 1'000'000;
 
 TEST(Pacer, plays_in_real_time_from_the_first_event) {
-    ManualClock clock(5 * ms);
+    test::ManualClock clock(5 * ms);
     Pacer pacer(clock, 1);
     EXPECT_TRUE(pacer.wait_until(1'000'000));
     EXPECT_EQ(clock.steady_ns(), 5 * ms);
@@ -21,7 +23,7 @@ TEST(Pacer, plays_in_real_time_from_the_first_event) {
 
 TEST(Pacer, plays_faster_and_slower) {
     for (const double rate : {0.001, 0.5, 4.0, 1000.0}) {
-        ManualClock clock;
+        test::ManualClock clock;
         Pacer pacer(clock, rate);
         pacer.wait_until(0);
         pacer.wait_until(8'000);
@@ -30,7 +32,7 @@ TEST(Pacer, plays_faster_and_slower) {
 }
 
 TEST(Pacer, as_fast_as_possible_never_waits) {
-    ManualClock clock;
+    test::ManualClock clock;
     Pacer pacer(clock, 0);
     EXPECT_TRUE(pacer.wait_until(0));
     EXPECT_TRUE(pacer.wait_until(1'000'000'000));
@@ -39,7 +41,7 @@ TEST(Pacer, as_fast_as_possible_never_waits) {
 }
 
 TEST(Pacer, a_new_rate_goes_on_from_the_sensor_time_reached) {
-    ManualClock clock;
+    test::ManualClock clock;
     Pacer pacer(clock, 1);
     pacer.wait_until(0);
     clock.at(4 * ms, [&] { pacer.set_rate(2); });
@@ -49,7 +51,7 @@ TEST(Pacer, a_new_rate_goes_on_from_the_sensor_time_reached) {
 }
 
 TEST(Pacer, from_as_fast_as_possible_to_real_time_starts_where_the_stream_is) {
-    ManualClock clock;
+    test::ManualClock clock;
     Pacer pacer(clock, 0);
     pacer.wait_until(5'000'000);
     pacer.set_rate(1);
@@ -60,7 +62,7 @@ TEST(Pacer, from_as_fast_as_possible_to_real_time_starts_where_the_stream_is) {
 }
 
 TEST(Pacer, a_new_rate_of_0_ends_a_wait_at_once) {
-    ManualClock clock;
+    test::ManualClock clock;
     Pacer pacer(clock, 1);
     pacer.wait_until(0);
     clock.at(4 * ms, [&] { pacer.set_rate(0); });
@@ -69,7 +71,7 @@ TEST(Pacer, a_new_rate_of_0_ends_a_wait_at_once) {
 }
 
 TEST(Pacer, a_pause_stops_sensor_time_and_nothing_is_skipped_after_it) {
-    ManualClock clock;
+    test::ManualClock clock;
     Pacer pacer(clock, 1);
     pacer.wait_until(0);
     clock.at(4 * ms, [&] { pacer.pause(); });
@@ -83,7 +85,7 @@ TEST(Pacer, a_pause_stops_sensor_time_and_nothing_is_skipped_after_it) {
 }
 
 TEST(Pacer, a_pause_also_holds_what_goes_as_fast_as_possible) {
-    ManualClock clock;
+    test::ManualClock clock;
     Pacer pacer(clock, 0);
     pacer.pause();
     clock.at(9 * ms, [&] { pacer.resume(); });
@@ -92,7 +94,7 @@ TEST(Pacer, a_pause_also_holds_what_goes_as_fast_as_possible) {
 }
 
 TEST(Pacer, measures_its_lag_and_catches_up_without_waiting) {
-    ManualClock clock;
+    test::ManualClock clock;
     Pacer pacer(clock, 1);
     pacer.wait_until(0);
     clock.advance(7 * ms);
@@ -107,7 +109,7 @@ TEST(Pacer, measures_its_lag_and_catches_up_without_waiting) {
 }
 
 TEST(Pacer, another_stream_begins_at_once_after_a_restart) {
-    ManualClock clock;
+    test::ManualClock clock;
     Pacer pacer(clock, 1);
     pacer.wait_until(5'000'000);
     pacer.restart();
@@ -118,7 +120,7 @@ TEST(Pacer, another_stream_begins_at_once_after_a_restart) {
 }
 
 TEST(Pacer, tells_the_host_time_of_sensor_times_around_the_present) {
-    ManualClock clock(0, 1'700'000'000'000 * ms);
+    test::ManualClock clock(0, 1'700'000'000'000 * ms);
     Pacer pacer(clock, 2);
     pacer.wait_until(1'000'000);
     pacer.wait_until(1'010'000);
@@ -139,7 +141,7 @@ TEST(Pacer, stop_ends_a_wait_on_the_system_clock) {
 }
 
 TEST(Pacer, a_time_beyond_the_clock_waits_instead_of_overflowing) {
-    ManualClock clock;
+    test::ManualClock clock;
     Pacer pacer(clock, 0.001);
     pacer.wait_until(0);
     clock.at(1 * ms, [&] { pacer.stop(); });

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "tests/support/manual_clock.hpp"
 #include "tests/unit/sensor/sent_packets.hpp"
 
 namespace pursuit::sensor {
@@ -32,7 +33,7 @@ struct Sending {
     }
 
     disk::SensorConfig config;
-    ManualClock clock{0, 1'000};
+    pursuit::test::ManualClock clock{0, 1'000};
     Pacer pacer;
     std::unique_ptr<FilterSwitch> filters;
     PublisherCounts counts;

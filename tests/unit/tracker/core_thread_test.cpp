@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core_thread.hpp"
+#include "tests/support/manual_clock.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@ namespace {
 
 /// A core thread that is not started yet.
 struct Core {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     TrackerQueue queue{4, 4};
     StoreWriter store{"", [](const std::string&) {}};
     std::promise<void> replied;

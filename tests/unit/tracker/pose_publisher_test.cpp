@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include "tests/support/manual_clock.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
@@ -13,7 +15,7 @@ using ::testing::ElementsAre;
 
 /// A publisher, and what it hands to a middleware that takes samples or does not.
 struct Published {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     bool takes = true;
     std::vector<v1::ObjectPose> poses;
     std::vector<v1::PoseTrack> tracks;
@@ -126,7 +128,7 @@ TEST(PosePublisher, counts_a_track_that_could_not_be_written_as_a_failure) {
 
 TEST(PosePublisher, says_of_a_stall_no_more_once_ten_seconds_of_poses_have_passed) {
     constexpr std::int64_t s_ns = 1'000'000'000;
-    ManualClock clock(3 * s_ns, 3 * s_ns);
+    pursuit::test::ManualClock clock(3 * s_ns, 3 * s_ns);
     PosePublisher publisher(
         1, clock, [](v1::ObjectPose&) { return true; }, [](v1::PoseTrack&) { return true; },
         [](const PoseRecord&) {});

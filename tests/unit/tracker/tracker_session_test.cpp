@@ -8,6 +8,7 @@
 
 #include "services/sensor/packed_event.hpp"
 #include "services/tracker/tracker_wire.hpp"
+#include "tests/support/manual_clock.hpp"
 #include "tests/unit/tracker/core/scene.hpp"
 
 namespace pursuit::tracker {
@@ -57,7 +58,7 @@ struct Restarted {
     }
 
     int steps_left;
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     bool takes_models = true;
     std::uint64_t packets = 0;
     std::vector<std::uint32_t> models_forgotten;

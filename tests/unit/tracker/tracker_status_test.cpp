@@ -7,15 +7,17 @@
 #include <map>
 #include <string>
 
+#include "tests/support/manual_clock.hpp"
+
 namespace pursuit::tracker {
 namespace {
 
-v1::TrackerStatus status_of(const SessionFigures& figures, ManualClock& clock) {
+v1::TrackerStatus status_of(const SessionFigures& figures, pursuit::test::ManualClock& clock) {
     return tracker_status({}, figures, {}, IntakeCounters{}, clock);
 }
 
 TEST(TrackerStatus, tells_how_far_behind_the_tracker_was_when_it_was_asked) {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     SessionFigures figures;
     figures.last_t_us = 5;
     figures.last_host_time_ns = 1'000'000;
@@ -26,14 +28,14 @@ TEST(TrackerStatus, tells_how_far_behind_the_tracker_was_when_it_was_asked) {
 }
 
 TEST(TrackerStatus, before_the_first_event_has_no_lag) {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     SessionFigures figures;
     figures.taken_host_time_ns = 3'500'000;
     EXPECT_EQ(status_of(figures, clock).lag_us(), 0);
 }
 
 TEST(TrackerStatus, says_how_often_objects_were_lost_and_why_apart_from_what_was_dropped) {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     SessionFigures figures;
     figures.tracker.lost_by[static_cast<std::size_t>(LossCause::gone)] = 3;
     const auto status = status_of(figures, clock);
@@ -47,7 +49,7 @@ TEST(TrackerStatus, says_how_often_objects_were_lost_and_why_apart_from_what_was
 
 // Every figure is another power of 2: a sum tells what is in it.
 TEST(TrackerStatus, tells_each_cause_by_its_name_and_sums_up_those_of_events_alone) {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     SessionFigures figures;
     figures.tracker.events_in = 1 << 0;
     figures.dropped_bad_geometry = 1 << 1;
@@ -96,7 +98,7 @@ TEST(TrackerStatus, tells_each_cause_by_its_name_and_sums_up_those_of_events_alo
 }
 
 TEST(TrackerStatus, tells_every_other_figure_as_it_is) {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     SessionFigures figures;
     figures.stream_id = 1;
     figures.last_t_us = 2;
@@ -150,7 +152,7 @@ TEST(TrackerStatus, of_an_open_stream_without_packets_for_100_ms_is_a_fault) {
 }
 
 TEST(TrackerStatus, counts_what_waited_still_at_the_end_as_dropped) {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     SessionFigures figures;
     figures.tracker.events_in = 100;
     IntakeCounters intake;
@@ -165,7 +167,7 @@ TEST(TrackerStatus, counts_what_waited_still_at_the_end_as_dropped) {
 }
 
 TEST(TrackerStatus, is_a_fault_with_its_reason_while_the_store_is_not_written) {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     SessionFigures figures;
     figures.stream_open = true;
     const auto status = status_of(figures, clock);
@@ -177,7 +179,7 @@ TEST(TrackerStatus, is_a_fault_with_its_reason_while_the_store_is_not_written) {
 }
 
 TEST(TrackerStatus, says_how_many_calls_wait_for_their_time) {
-    ManualClock clock;
+    pursuit::test::ManualClock clock;
     SessionFigures figures;
     figures.calls_waiting = 2;
     EXPECT_EQ(describe(status_of(figures, clock), figures, ""),

@@ -3,83 +3,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
-
-#include <filesystem>
-#include <fstream>
-#include <set>
 
 #include "services/recorder/mcap/facts.hpp"
-#include "services/recorder/mcap/reader.hpp"
 #include "services/recorder/record/output_path.hpp"
 #include "services/recorder/record/related_sample.hpp"
-#include "tests/unit/recorder/mcap_sample.hpp"
+#include "tests/unit/recorder/record/files_fixture.hpp"
 
 namespace pursuit::recorder {
 namespace {
-
-class Files : public ::testing::Test {
- protected:
-    Files() {
-        char pattern[] = "/tmp/pursuit-files-XXXXXX";
-        folder_ = ::mkdtemp(pattern);
-    }
-    ~Files() override { std::filesystem::remove_all(folder_); }
-
-    FileSequence sequence(FileOptions options) {
-        return FileSequence(
-            std::move(options), topics_,
-            [this](auto&, const Guid& writer) {
-                OfferedQos offered;
-                offered.gone = gone_.contains(writer);
-                return offered;
-            },
-            [this](const std::string& error) { errors_.push_back(error); });
-    }
-    static Sample sample(std::uint8_t content, std::size_t topic = 0, std::uint8_t writer = 1) {
-        Sample sample;
-        sample.topic = topic;
-        sample.id.writer.fill(writer);
-        sample.id.sequence = content;
-        sample.reception_time_ns = 1000 + content;
-        sample.payload = {0, 1, 0, 0, content};
-        return sample;
-    }
-    static Sample model(std::uint8_t instance, std::uint8_t content, std::uint8_t writer = 1) {
-        auto model = sample(content, 2, writer);
-        model.instance.fill(instance);
-        model.source_time_ns = 100 + content;
-        return model;
-    }
-    struct Message {
-        mcap::MessageHead head;
-        mcap::Channel channel;
-        mcap::Bytes data;
-    };
-    static std::vector<Message> messages(const std::string& path) {
-        std::vector<Message> found;
-        auto input = mcap::FileInput::open(path);
-        if (!input) return found;
-        auto reader = mcap::Reader::open(std::move(*input), path);
-        while (reader) {
-            const auto message = reader->next();
-            if (!message || !*message) break;
-            found.push_back({(*message)->head,
-                             *(*message)->channel,
-                             {(*message)->data.begin(), (*message)->data.end()}});
-        }
-        return found;
-    }
-    std::string path(const std::string& name) const { return folder_ + "/" + name; }
-
-    std::string folder_;
-    std::vector<TopicFacts> topics_ = {
-        {"pursuit/poses", "pursuit::v1::ObjectPose", true, "poses", 16},
-        {"pursuit/tracker/reply", "pursuit::v1::TrackerReply", false, "calls", 128},
-        {"pursuit/models", "pursuit::v1::RegisteredModel", true, "latched", 1}};
-    std::set<Guid> gone_;
-    std::vector<std::string> errors_;
-};
 
 TEST_F(Files, keep_writers_apart_and_say_who_they_are) {
     auto files = sequence({path("a.mcap"), {}, 0});
@@ -119,13 +50,14 @@ TEST_F(Files, hold_disposes_and_the_request_behind_a_reply) {
     ASSERT_EQ(found.size(), 3U);
     EXPECT_EQ(found[0].channel.message_encoding, mcap::instance_state_encoding);
     EXPECT_EQ(found[0].channel.schema_id, 0U);
-    const auto state = mcap::decode_instance_state(found[0].data);
-    ASSERT_TRUE(state);
-    EXPECT_TRUE(state->disposed && !state->unregistered);
-    EXPECT_EQ(state->key_hash, dispose.instance);
+    mcap::Bytes state(17, 9);
+    state[0] = 0b101;  // disposed, with the key hash
+    EXPECT_EQ(found[0].data, state);
     EXPECT_EQ(found[2].channel.topic, "pursuit/tracker/reply");
     EXPECT_EQ(found[2].channel.message_encoding, related_sample_encoding);
-    EXPECT_EQ(decode_related(found[2].data), reply.related);
+    mcap::Bytes request(16, 7);
+    request.insert(request.end(), {2, 0, 0, 0, 1, 0, 0, 0});
+    EXPECT_EQ(found[2].data, request);
 }
 
 TEST_F(Files, begin_a_next_one_at_the_size_that_is_set_and_lose_nothing) {
@@ -198,114 +130,46 @@ TEST_F(Files, hold_as_much_of_their_own_as_what_they_begin_with_whatever_size_is
     EXPECT_EQ(files.totals().messages, 121U);
 }
 
-TEST_F(Files, that_have_no_room_for_what_they_begin_with_are_not_begun) {
-    const auto disk = std::make_shared<mcap::MemoryOutput::Disk>();
-    auto files = sequence({path("a.mcap"), {}, 0, [&](const std::string& path) {
-                               std::ofstream(path) << std::string(100, ' ');
-                               return std::make_unique<mcap::MemoryOutput>(disk);
-                           }});
+TEST_F(Files, begin_a_next_one_where_the_index_of_one_is_full) {
+    mcap::WriterOptions options;
+    options.chunk_bytes = 1;  // each message is a chunk
+    options.max_index_bytes = 300;
+    auto files = sequence({path("a.mcap"), options, 0});
     ASSERT_TRUE(files.begin({}));
-    files.write(model(7, 1), {});
-    files.tick({200'000, 0});
-    disk->fail_at = 3;  // the fourth call: the magic, two definitions, then the chunk
-    EXPECT_FALSE(files.new_file({}));
-    EXPECT_THAT(files.totals().fault, ::testing::HasSubstr("No space left on device"));
-    EXPECT_TRUE(std::filesystem::exists(path("a.mcap")));
-    EXPECT_FALSE(std::filesystem::exists(path("a-1.mcap")));
-    disk->fail_at = -1;
-    files.tick({1'200'000, 0});
-    EXPECT_EQ(files.totals().fault, "");
-    EXPECT_EQ(files.totals().file, path("a-1.mcap"));
+    for (std::uint8_t i = 0; i < 10; ++i) files.write(sample(i), {});
+    files.close({});
+    const auto first = messages(path("a.mcap"));
+    const auto second = messages(path("a-1.mcap"));
+    ASSERT_FALSE(second.empty());
+    EXPECT_EQ(second.front().data[4], first.size());
+    EXPECT_EQ(files.totals().messages, 10U);
 }
 
-TEST_F(Files, that_cannot_be_written_are_tried_again_every_second_and_what_is_lost_is_counted) {
-    const auto place = path("place");
-    std::filesystem::create_directory(place);
-    auto files = sequence({place + "/a.mcap", {}, 0});
+TEST_F(Files, tell_once_that_more_is_latched_than_is_kept) {
+    auto files = sequence({path("a.mcap"), {}, 0});
     ASSERT_TRUE(files.begin({}));
-    files.write(sample(1), {});
-    std::filesystem::remove_all(place);
-    EXPECT_FALSE(files.new_file({}));
-    EXPECT_THAT(files.totals().fault, ::testing::HasSubstr("No such file or directory"));
-    files.write(sample(2), {});
-    files.tick({900'000, 0});
-    std::filesystem::create_directory(place);
-    files.tick({999'999, 0});
-    EXPECT_FALSE(files.totals().fault.empty());
-    files.tick({1'000'000, 0});
-    EXPECT_EQ(files.totals().fault, "");
-    files.write(sample(3), {1'000'000, 0});
-    files.close({1'000'000, 0});
-    EXPECT_EQ(messages(place + "/a.mcap").size(), 1U);
-    EXPECT_EQ(files.totals().lost_disk, 1U);
-    EXPECT_EQ(files.totals().topics_lost[0], 1U);
-    EXPECT_EQ(errors_.size(), 1U);
-}
-
-TEST_F(Files, that_find_the_disk_full_at_the_start_are_tried_again_like_later_ones) {
-    const auto disk = std::make_shared<mcap::MemoryOutput::Disk>();
-    disk->fail_at = 0;
-    auto files = sequence(
-        {path("a.mcap"), {}, 0, [&](auto&) { return std::make_unique<mcap::MemoryOutput>(disk); }});
-    ASSERT_TRUE(files.begin({}));
-    EXPECT_THAT(files.totals().fault, ::testing::HasSubstr("No space left on device"));
-    files.write(sample(1), {});
-    EXPECT_EQ(files.totals().lost_disk, 1U);
-    disk->fail_at = -1;
-    files.tick({1'000'000, 0});
-    EXPECT_EQ(files.totals().fault, "");
-    EXPECT_EQ(files.totals().file, path("a.mcap"));
-}
-
-TEST_F(Files, that_cannot_be_written_are_told_of_once_whatever_they_are_called) {
-    const auto place = path("place");
-    std::filesystem::create_directory(place);
-    auto files = sequence({place + "/%t.mcap", {}, 0});
-    ASSERT_TRUE(files.begin({}));
-    std::filesystem::remove_all(place);
-    EXPECT_FALSE(files.new_file({}));
-    for (std::int64_t second = 1; second <= 3; ++second) {
-        files.tick({second * 1'000'000, second * 1'000'000'000});
+    auto latched = model(0, 1);
+    for (std::size_t i = 0; i < LatchedSamples::most_samples + 2; ++i) {
+        EXPECT_EQ(errors_.size(), i > LatchedSamples::most_samples ? 1U : 0U) << i;
+        latched.instance[0] = static_cast<std::uint8_t>(i);
+        latched.instance[1] = static_cast<std::uint8_t>(i >> 8);
+        files.write(latched, {});
     }
-    EXPECT_EQ(errors_.size(), 1U);
-    // Another reason is told.
-    std::ofstream(place) << "";
-    files.tick({4'000'000, 4'000'000'000});
-    EXPECT_EQ(errors_.size(), 2U);
-    EXPECT_THAT(files.totals().fault, ::testing::HasSubstr("Not a directory"));
+    EXPECT_THAT(errors_, ::testing::ElementsAre(::testing::HasSubstr(
+                             "pursuit/models: too much is latched to keep it")));
 }
 
-TEST_F(Files, that_cannot_be_flushed_count_what_they_hold_as_lost) {
-    for (const std::int64_t flush_interval_us : {0, 1'000'000}) {
-        const auto disk = std::make_shared<mcap::MemoryOutput::Disk>();
-        FileOptions options{path("a.mcap"), {}, 0, [&](auto&) {
-                                return std::make_unique<mcap::MemoryOutput>(disk);
-                            }};
-        options.writer.flush_interval_us = flush_interval_us;
-        auto files = sequence(std::move(options));
-        ASSERT_TRUE(files.begin({}));
-        files.write(sample(1), {});
-        files.tick({1'000'000, 0});
-        EXPECT_EQ(files.totals().messages, 1U);
-        files.write(sample(2), {1'000'000, 0});
-        disk->fail_at = disk->writes + disk->flushes + 1;  // not the chunk's write, its flush
-        files.tick({1'200'000, 0});
-        if (flush_interval_us > 0) files.tick({2'200'000, 0});
-        EXPECT_EQ(files.totals().fault, "disk: cannot flush: Input/output error");
-        EXPECT_EQ(files.totals().chunks_written, 2U);
-        EXPECT_EQ(files.totals().messages, 1U);
-        EXPECT_EQ(files.totals().topics[0].messages, 1U);
-        EXPECT_EQ(files.totals().lost_disk, 1U);
-        EXPECT_EQ(files.totals().topics_lost[0], 1U);
-    }
-}
-
-TEST_F(Files, that_cannot_be_begun_are_an_error_with_the_path) {
-    auto files = sequence({path("nowhere/a.mcap"), {}, 0});
-    const auto begun = files.begin({});
-    ASSERT_FALSE(begun);
-    EXPECT_THAT(begun.error().message, ::testing::HasSubstr(path("nowhere/a.mcap")));
-    EXPECT_FALSE(sequence({path(std::string(300, 'a')), {}, 0}).begin({}));
+TEST_F(Files, count_the_gaps_of_their_event_streams_and_of_nothing_else) {
+    auto files = sequence({path("a.mcap"), {}, 0});
+    ASSERT_TRUE(files.begin({}));
+    for (const std::uint64_t number : {0, 1, 5}) files.write(packet(number), {});
+    EXPECT_EQ(files.totals().gaps, 1U);
+    auto gone = packet(9);
+    gone.kind = SampleKind::disposed;
+    auto pose = packet(9);
+    pose.topic = 0;
+    for (const auto& none : {gone, pose}) files.write(none, {});
+    EXPECT_EQ(files.totals().gaps, 1U);
 }
 
 TEST_F(Files, take_the_first_free_name) {

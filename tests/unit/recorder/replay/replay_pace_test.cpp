@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/manual_clock.hpp"
+
 namespace pursuit::recorder {
 namespace {
 
@@ -15,7 +17,7 @@ class Pace : public ::testing::Test {
         const auto due = pace.wait(log_ms * ms);
         return due ? clock_.steady_ns() / ms : -1;
     }
-    ManualClock clock_{0, 1'700'000'000'000'000'000};
+    test::ManualClock clock_{0, 1'700'000'000'000'000'000};
 };
 
 TEST_F(Pace, begins_with_the_first_message_whatever_its_time) {

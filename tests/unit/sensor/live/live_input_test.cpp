@@ -11,6 +11,7 @@
 #include "services/sensor/live/byte_stream_input.hpp"
 #include "services/sensor/live/driver_input.hpp"
 #include "services/sensor/source.hpp"
+#include "tests/support/manual_clock.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace pursuit::sensor {
@@ -99,7 +100,7 @@ TEST(BackOff, doubles_up_to_its_longest_and_begins_again_after_a_stream_that_las
 }
 
 TEST(LiveSink, says_how_long_the_streams_lasted_since_it_was_asked) {
-    ManualClock clock(1'000'000'000);
+    pursuit::test::ManualClock clock(1'000'000'000);
     LiveSink sink(100, clock);
     sink.end("nothing had begun");
     EXPECT_EQ(sink.take_lasted(), 0ms);

@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "services/sensor/scene/scene_simulator.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace pursuit::sensor {
 namespace {
@@ -28,14 +28,7 @@ Scene parsed(const std::string& text) {
 
 class WriteSimulation : public testing::Test {
  protected:
-    WriteSimulation()
-        : folder_(std::filesystem::temp_directory_path() /
-                  ("pursuit_write_simulation_" + std::to_string(::getpid()))) {
-        std::filesystem::create_directories(folder_);
-    }
-    ~WriteSimulation() override { std::filesystem::remove_all(folder_); }
-
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    std::string path(const std::string& name) const { return folder_.path(name); }
 
     std::vector<std::string> lines(const std::string& name) const {
         std::ifstream in(path(name));
@@ -44,7 +37,7 @@ class WriteSimulation : public testing::Test {
         return all;
     }
 
-    std::filesystem::path folder_;
+    test::TemporaryFolder folder_;
 };
 
 const std::string moving_star =
@@ -116,7 +109,7 @@ TEST_F(WriteSimulation, reports_a_folder_it_cannot_write_to_and_an_error_of_the_
 TEST_F(WriteSimulation, writes_no_model_over_the_truth_or_what_is_to_be_kept) {
     SimulationFiles files;
     files.truth_path = path("start.csv");
-    files.models_dir = folder_.string();
+    files.models_dir = path("");
     const auto none = [](std::span<const Event>, std::span<const Event>) -> Result<void> {
         return {};
     };
