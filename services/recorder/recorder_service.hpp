@@ -21,8 +21,9 @@ namespace pursuit::recorder {
 /// is on the main one.
 class RecorderService final : public Service {
  public:
-    /// Refuses a configuration that asks for neither or both of recording and replaying, or for a
-    /// topic that there is not. `configuration` must outlive it.
+    /// Refuses a configuration that asks for neither or both of recording and replaying, for a
+    /// folder as output, for a replay of what is no recording, or for a topic that there is not.
+    /// `configuration` must outlive it.
     static Result<std::unique_ptr<Service>> make(const disk::RecorderConfig& configuration);
 
     explicit RecorderService(const disk::RecorderConfig& configuration);
