@@ -69,7 +69,7 @@ class Estimator {
     /// Uses the event with a weight 0 … 1; false where it came to nothing.
     virtual bool take(double weight) = 0;
 
-    /// The event that was asked for last lies on another object's contour.
+    /// This event lies on another object's contour; it may not have been asked for.
     virtual void disown(const Event& event) { static_cast<void>(event); }
 
     /// How far from the pose's place an event until t_us can be and concern the object, px.
