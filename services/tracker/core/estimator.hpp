@@ -18,6 +18,8 @@ namespace pursuit::tracker {
 struct Approach {
     double distance2_px2 = 0;  ///< To what the event pulls, squared.
     double clutter = 0;        ///< Density of events that are no object's, 1/px.
+    /// Whether take() weighs the event against the clutter by itself.
+    bool is_weighed = false;
 
     /// To the contour, squared, and which piece of it; where points pull, at most so far, and of
     /// the pieces that end at the point.
