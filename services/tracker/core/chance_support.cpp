@@ -26,6 +26,8 @@ int ChanceSupport::least_neighbours(double over_us, double within_us, double by_
     constexpr double pixels = tile_px * tile_px;
     const double silent = (pixels - *quiet + 1) / (pixels + 1);
     const double p = 1 - std::pow(silent, within_us / over_us);
+    // All of them fire, so surely that nothing is left to reckon with.
+    if (!(p < 1)) return neighbours;
     // Of eight, so many or more.
     double exactly = std::pow(1 - p, neighbours);
     double beyond = 1 - exactly;

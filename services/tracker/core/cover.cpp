@@ -95,13 +95,8 @@ void Cover::restart() {
 
 void Cover::close_window(const Outline& outline, const Pose& pose, const Velocity& velocity) {
     const Eigen::Matrix2d& a = pose.a;
-    // The speed of each part's middle, v + ω × d + growth·d for d = A·m, and what of it goes across
-    // the part.
-    const double turn = velocity.omega_rad_s;
-    const double growth = velocity.scale_x_rate_per_s;
-    Eigen::Matrix2d rate_of_d;
-    rate_of_d << growth, -turn, turn, growth;
-    const Eigen::Matrix2d g = rate_of_d * a;
+    // The speed of each part's middle, and what of it goes across the part.
+    const Eigen::Matrix2d g = rate_of_arms(a, velocity) * a;
     const MomentaryVectors speed{
         velocity.vx_px_s + g(0, 0) * middle_px_.x + g(0, 1) * middle_px_.y,
         velocity.vy_px_s + g(1, 0) * middle_px_.x + g(1, 1) * middle_px_.y};

@@ -18,6 +18,8 @@ namespace pursuit::tracker {
 struct Approach {
     double distance2_px2 = 0;  ///< To what the event pulls, squared.
     double clutter = 0;        ///< Density of events that are no object's, 1/px.
+    /// Whether take() weighs the event against the clutter by itself.
+    bool is_weighed = false;
 
     /// To the contour, squared, and which piece of it; where points pull, at most so far, and of
     /// the pieces that end at the point.
@@ -69,7 +71,7 @@ class Estimator {
     /// Uses the event with a weight 0 … 1; false where it came to nothing.
     virtual bool take(double weight) = 0;
 
-    /// The event that was asked for last lies on another object's contour.
+    /// This event lies on another object's contour; it may not have been asked for.
     virtual void disown(const Event& event) { static_cast<void>(event); }
 
     /// Farther than this from the contour no event is the object's, px.

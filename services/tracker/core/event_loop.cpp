@@ -215,7 +215,8 @@ void EventLoop::wake(std::int64_t t_us) {
     };
     for_each_reached([&](std::size_t i) {
         if (const Approach* const near = approach(event, i, past)) {
-            arbiter_.claim(i, tracks_[i].object_id(), near->distance_px(), near->clutter);
+            arbiter_.claim(i, tracks_[i].object_id(), near->distance_px(), near->clutter,
+                           near->is_weighed);
             if (near->contour2_px2 < nearest2_px2 && tracks_[i].is_followed()) {
                 nearest2_px2 = near->contour2_px2;
                 nearest = i;

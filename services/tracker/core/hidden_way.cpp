@@ -27,6 +27,12 @@ void HiddenWay::learn(std::int64_t t_us, const Pose& pose) {
     strays2_rad2_s2_ += (strays(2) * strays(2) - strays2_rad2_s2_) / samples_;
 }
 
+void HiddenWay::learn_anew() {
+    const Coast coast = coast_;
+    restart();
+    coast_ = coast;
+}
+
 UsualWay HiddenWay::usual() const {
     UsualWay way;
     if (samples_ < least_samples) return way;

@@ -21,6 +21,10 @@ class HiddenWay {
     /// Nothing is known of how it goes.
     void restart() { *this = HiddenWay(); }
 
+    /// It was found elsewhere than it was thought to be: how it came there tells nothing of how it
+    /// goes. What is known of its last way under another stays.
+    void learn_anew();
+
     /// While it is in view: whether another pose is wanted, and the pose.
     [[nodiscard]] bool is_due(std::int64_t t_us) const { return slow_.is_due(t_us); }
     void learn(std::int64_t t_us, const Pose& pose);

@@ -209,7 +209,7 @@ const Approach* KalmanEstimator<kind>::approach(const Event& event, const PixelP
     measured_.told = noise_.at(r_px, measured_.row.h_p_h, subsequent || is_late);
     const double clutter =
         parts_.clutter ? clutter_.density(place.piece, r_px) : KalmanParts::usual_clutter;
-    near_ = {r_px * r_px, clutter, r_px * r_px, place.piece};
+    near_ = {r_px * r_px, clutter, true, r_px * r_px, place.piece};
     return &near_;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "services/common/event.hpp"
 #include "services/tracker/core/coast.hpp"
 #include "services/tracker/core/contour.hpp"
 #include "services/tracker/core/fired_beside.hpp"
@@ -34,12 +35,13 @@ class Lookout {
     void restart() { window_.restart(); }
 
     /// An event about the object.
-    void see(std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
-        window_.see(x, y, polarity);
+    void see(const Event& event) {
+        window_.see(event.x, event.y, event.polarity);
+        seen_ = event;
     }
-    /// It is another object's.
-    void disown(std::uint16_t x, std::uint16_t y, std::uint8_t polarity) {
-        window_.forget(x, y, polarity);
+    /// It is another object's. (Where that one was not seen, an earlier one of its pixel stays.)
+    void disown(const Event& event) {
+        if (event == seen_) window_.forget(event.x, event.y, event.polarity);
     }
     /// What was seen since the last look.
     [[nodiscard]] const FiredCounts& fresh() const { return window_.fresh(); }
@@ -86,6 +88,7 @@ class Lookout {
     Eigen::Vector2d middle_px_{0, 0};        // of them
     double turn_rad_ = 0;                    // of a step
     FiredWindow window_;                     // a slice for each look
+    Event seen_{-1, 0, 0, 0};                // the last one
     std::vector<float> work_;
     FiredBeside beside_;
     std::vector<float> scores_;  // [turn][y][x]

@@ -48,9 +48,9 @@ class NoiseWatch {
     [[nodiscard]] bool is_sure() const { return is_on_ && plain_looks_ >= sure_looks; }
 
     /// An event about the object.
-    void see(const Event& event) { lookout_.see(event.x, event.y, event.polarity); }
-    /// The last one is another object's: it shows nothing of this one.
-    void disown(const Event& event) { lookout_.disown(event.x, event.y, event.polarity); }
+    void see(const Event& event) { lookout_.see(event); }
+    /// It is another object's: if it was seen last, it shows nothing of this one.
+    void disown(const Event& event) { lookout_.disown(event); }
 
     [[nodiscard]] bool is_due(std::int64_t t_us) const { return t_us >= due_us_; }
 

@@ -32,6 +32,7 @@ void Occlusion::restart() {
     evidence_.clear();
     overlaps_.clear();
     hidden_by_.clear();
+    behind_.clear();
 }
 
 void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
@@ -64,10 +65,15 @@ void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
     for (const auto& [i, k] : overlaps_) gather(tracks[i], tracks[k]);
     hidden_by_.resize(tracks.size());
     for (auto& fronts : hidden_by_) fronts.clear();
+    behind_.clear();
     for (const auto& [i, k] : overlaps_) {
-        if (is_behind(tracks[i], tracks[k])) hidden_by_[i].push_back(k);
+        if (!is_behind(tracks[i], tracks[k])) continue;
+        hidden_by_[i].push_back(k);
+        behind_.emplace_back(tracks[i].object_id(), tracks[k].object_id());
     }
-    std::erase_if(evidence_, [](const auto& pair) { return pair.second.is_forgotten(); });
+    std::erase_if(evidence_, [&](const auto& of_pair) {
+        return of_pair.second.is_faded() && !holds(of_pair.first);
+    });
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         Track& track = tracks[i];
         track.end_tally(t_us);
@@ -80,6 +86,14 @@ void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
         }
         track.see(t_us);
     }
+}
+
+// Those that stand still tell nothing, and are as they were. Each behind the other they cannot be.
+bool Occlusion::holds(const Pair& pair) const {
+    const auto was_found = [&](const Pair& order) {
+        return std::binary_search(behind_.begin(), behind_.end(), order);
+    };
+    return was_found(pair) && !was_found({pair.second, pair.first});
 }
 
 void Occlusion::gather(const Track& one, const Track& other) {

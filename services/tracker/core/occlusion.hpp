@@ -17,8 +17,9 @@ namespace pursuit::tracker {
 /// is in front and none when it is behind: what should have come against what came, both ways,
 /// tells which, unless their depth is given. Parts that are hidden take no events.
 ///
-/// Looked at every 2 ms of event time, over the last half second. The pairs kept are those whose
-/// contours overlapped lately.
+/// Looked at every 2 ms of event time, over the last half second. An order that was found holds as
+/// long as the two overlap, until something else is told. The pairs kept are those, and those whose
+/// contours made events in each other lately.
 class Occlusion {
  public:
     /// To be called before the first event at or after next_us().
@@ -69,6 +70,8 @@ class Occlusion {
     [[nodiscard]] bool is_hidden(std::size_t index, const Event& event,
                                  std::span<const Track> tracks) const;
     bool is_behind(const Track& one, const Track& other);
+    /// Whether this order was found of two that overlap, and the reverse was not.
+    [[nodiscard]] bool holds(const Pair& pair) const;
 
     std::int64_t next_us_ = 0;
     std::int64_t last_us_ = -1;
@@ -76,6 +79,7 @@ class Occlusion {
     std::vector<Round> rounds_;                 // by index
     std::vector<std::size_t> fronts_;           // those that can hide others
     std::vector<Overlap> overlaps_;
+    std::vector<Pair> behind_;                         // of the overlaps, sorted
     std::vector<std::vector<std::size_t>> hidden_by_;  // by index: those in front of it
 };
 

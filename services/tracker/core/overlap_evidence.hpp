@@ -20,9 +20,7 @@ class OverlapEvidence {
         observed_ *= kept;
     }
     /// Next to nothing was counted of late.
-    [[nodiscard]] bool is_forgotten() const {
-        return expected_ < forgotten && observed_ < forgotten;
-    }
+    [[nodiscard]] bool is_faded() const { return expected_ < faded && observed_ < faded; }
 
     /// Whether it is behind; `other`: of the other's contour inside this one.
     bool decide(const OverlapEvidence& other) {
@@ -53,7 +51,7 @@ class OverlapEvidence {
     static constexpr double surely_expected = 60;
     static constexpr double surely_share = 0.7;
     static constexpr double stray_events = 5;
-    static constexpr double forgotten = 0.5;  // expected events
+    static constexpr double faded = 0.5;  // expected events
 
     double expected_ = 0;
     double observed_ = 0;

@@ -29,6 +29,18 @@ double theta_rad(const Eigen::Matrix2d& a) {
 double scale_x(const Eigen::Matrix2d& a) { return std::hypot(a(0, 0), a(1, 0)); }
 double scale_y(const Eigen::Matrix2d& a) { return std::hypot(a(0, 1), a(1, 1)); }
 
+Eigen::Matrix2d rate_of_arms(const Eigen::Matrix2d& a, const Velocity& velocity) {
+    const double growth = (velocity.scale_x_rate_per_s + velocity.scale_y_rate_per_s) / 2;
+    Eigen::Matrix2d rate;
+    rate << growth, -velocity.omega_rad_s, velocity.omega_rad_s, growth;
+    const double more_along = velocity.scale_x_rate_per_s - growth;
+    if (more_along == 0) return rate;
+    // What grows more along the axis grows that much less across it: more·(2·uuᵀ − 1).
+    const Eigen::Vector2d axis = a.col(0).normalized();
+    rate += more_along * (2 * axis * axis.transpose() - Eigen::Matrix2d::Identity());
+    return rate;
+}
+
 double largest_scale(const Eigen::Matrix2d& a) {
     // Singular values of a 2×2 matrix from its norm and determinant.
     const double twice = 2 * std::abs(a.determinant());

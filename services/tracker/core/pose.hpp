@@ -42,6 +42,10 @@ double theta_rad(const Eigen::Matrix2d& a);
 /// Lengths that A gives to the model's own unit axes: the columns' norms.
 double scale_x(const Eigen::Matrix2d& a);
 double scale_y(const Eigen::Matrix2d& a);
+/// How fast the arms d = A·m of a pose go about T with this velocity: d(d)/dt = rate·d. They turn,
+/// and grow by one rate along the image of the model's x axis and by the other across it.
+Eigen::Matrix2d rate_of_arms(const Eigen::Matrix2d& a, const Velocity& velocity);
+
 /// By how much A makes anything longer at most: its larger singular value.
 double largest_scale(const Eigen::Matrix2d& a);
 

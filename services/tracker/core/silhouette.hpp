@@ -14,14 +14,14 @@ namespace pursuit::tracker {
 /// What a shape covers: how deep a place of the model frame lies inside its contour. Gaps of a
 /// contour up to 3 px are closed; a contour that encloses nothing covers nothing.
 ///
-/// A map with cells of a pixel or, for large shapes, more: at most 65,536 cells, right to a cell.
+/// A map with cells of a pixel or, for large shapes, more: at most 66,049 cells, right to a cell.
 class Silhouette {
  public:
     Silhouette() = default;
     explicit Silhouette(const Contour& contour);
 
     /// Model px to the contour, at most `reach_px`: positive inside, negative outside. Farther than
-    /// 4 px outside the shape's circle it is just that far outside.
+    /// 4 px, or two cells, outside the shape's circle it is just that far outside.
     [[nodiscard]] double depth_px(const Eigen::Vector2d& m) const {
         const double column = (m.x() - left_px_) * cells_per_px_;
         const double row = (m.y() - top_px_) * cells_per_px_;

@@ -8,9 +8,7 @@ namespace pursuit::tracker {
 
 double Going::across_px_s(const Outline::Part& part, const Eigen::Vector2d& arm_px) const {
     const Eigen::Vector2d speed =
-        Eigen::Vector2d(velocity.vx_px_s, velocity.vy_px_s) +
-        velocity.omega_rad_s * Eigen::Vector2d(-arm_px.y(), arm_px.x()) +
-        (velocity.scale_x_rate_per_s + velocity.scale_y_rate_per_s) / 2 * arm_px;
+        Eigen::Vector2d(velocity.vx_px_s, velocity.vy_px_s) + rate_of_arms(a, velocity) * arm_px;
     const Eigen::Vector2d along = a * part.along_px;
     return std::abs(along.x() * speed.y() - along.y() * speed.x());
 }

@@ -158,6 +158,7 @@ void Track::acquire(std::int64_t t_us) {
     grip_.restart(Health::good);
     estimator_->restart(acquisition_->pose(), acquisition_->velocity());
     good_.set({t_us, acquisition_->pose(), acquisition_->velocity()});
+    hidden_way_.learn_anew();
     silence_.hear(t_us);
     begin_doubt(t_us, found_confirmations, t_us);
     if (was_anywhere) doubt_.leave_angle_open();

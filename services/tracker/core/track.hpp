@@ -90,7 +90,8 @@ class Track {
     void deny();
     /// Its place is known: what lies on its contour is its own.
     [[nodiscard]] bool is_followed() const { return !is_searching_ && !is_acquiring_; }
-    /// The event that was asked for last lies on the contour of another that is followed.
+    /// This event, whether approach() saw it or not, lies on the contour of another that is
+    /// followed.
     void disown(const Event& event) { estimator_->disown(event); }
 
     // For Seeker.

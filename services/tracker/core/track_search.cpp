@@ -84,6 +84,7 @@ void Track::move_to(std::int64_t t_us, const Pose& pose, const Velocity& velocit
         estimator_->restart(moved, velocity);
     }
     good_.set({t_us, moved, velocity});
+    hidden_way_.learn_anew();
     vanishing_.restart();
     // What came before the move is of the same object.
     if (tracker_.checks_pose >= 0.5) doubt_.begin_again(t_us, found_confirmations);

@@ -34,8 +34,9 @@ class Arbiter {
 
     void begin() { count_ = 0; }
     /// `claimant`: whatever the caller knows the object by.
-    void claim(std::size_t claimant, std::uint32_t object_id, double distance_px, double clutter) {
-        claims_[count_] = {object_id, distance_px, 0, clutter, 0};
+    void claim(std::size_t claimant, std::uint32_t object_id, double distance_px, double clutter,
+               bool is_weighed) {
+        claims_[count_] = {object_id, distance_px, 0, clutter, 0, is_weighed};
         claimants_[count_++] = claimant;
     }
     [[nodiscard]] std::size_t count() const { return count_; }

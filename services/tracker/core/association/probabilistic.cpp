@@ -8,7 +8,9 @@ void Probabilistic::assign(const Event&, std::span<Claim> claims) {
     for (const Claim& claim : claims) sum += claim.likelihood;
     for (Claim& claim : claims) {
         const double all = sum + claim.clutter;
-        claim.weight = all > 0 ? (claim.likelihood + claim.clutter) / all : 0;
+        // Over the factor that the estimator has by itself.
+        const double own = claim.likelihood + (claim.is_weighed ? claim.clutter : 0);
+        claim.weight = all > 0 ? own / all : 0;
     }
 }
 

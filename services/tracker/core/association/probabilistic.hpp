@@ -6,8 +6,8 @@
 namespace pursuit::tracker {
 
 /// Every object takes the event by its probability of having made it, beside the others and the
-/// clutter: β_k = L_k/(λ_k + ΣL). An estimator that knows of clutter has the factor L_k/(λ_k + L_k)
-/// already; the weight is the rest.
+/// clutter: β_k = L_k/(λ_k + ΣL). That is the weight; but an estimator that weighs events against
+/// the clutter by itself has the factor L_k/(λ_k + L_k) already, and gets the rest.
 struct Probabilistic : Strategy {
     void assign(const Event& event, std::span<Claim> claims) override;
 };

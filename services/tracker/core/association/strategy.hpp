@@ -14,10 +14,11 @@ namespace pursuit::tracker {
 /// One object's claim to an event within its gate.
 struct Claim {
     std::uint32_t object_id = 0;
-    double distance_px = 0;  ///< To the object's model.
-    double likelihood = 0;   ///< Of the event under the object, 1/px.
-    double clutter = 0;      ///< Density of events near the object that are no object's, 1/px.
-    double weight = 0;       ///< What the strategy gives, 0 … 1.
+    double distance_px = 0;   ///< To the object's model.
+    double likelihood = 0;    ///< Of the event under the object, 1/px.
+    double clutter = 0;       ///< Density of events near the object that are no object's, 1/px.
+    double weight = 0;        ///< What the strategy gives, 0 … 1.
+    bool is_weighed = false;  ///< Whether the object weighs it against the clutter by itself.
 };
 
 /// Gives ambiguous events, those within ambiguity_px of two objects or more (the paper, section

@@ -11,7 +11,7 @@ std::vector<double> given(Arbiter& arbiter, const std::vector<double>& distances
     const Event event{1000, 10, 10, 1};
     arbiter.begin();
     for (std::size_t i = 0; i < distances_px.size(); ++i) {
-        arbiter.claim(i, static_cast<std::uint32_t>(i + 1), distances_px[i], 0);
+        arbiter.claim(i, static_cast<std::uint32_t>(i + 1), distances_px[i], 0, false);
     }
     arbiter.give(event, [](std::size_t) { return 0.5; });
     std::vector<double> weights;
@@ -24,10 +24,10 @@ Arbiter of(StrategyKind kind) { return Arbiter(8, kind, StrategyParameters()); }
 TEST(Arbiter, has_nothing_to_say_of_one_claim_unless_the_strategy_listens) {
     Arbiter by_distance = of(StrategyKind::weighted);
     EXPECT_FALSE(by_distance.is_plain());
-    by_distance.claim(0, 1, 2, 0);
+    by_distance.claim(0, 1, 2, 0, false);
     EXPECT_TRUE(by_distance.is_plain());
     Arbiter by_planes = of(StrategyKind::spatiotemporal);
-    by_planes.claim(0, 1, 2, 0);
+    by_planes.claim(0, 1, 2, 0, false);
     EXPECT_FALSE(by_planes.is_plain());
     EXPECT_EQ(given(by_planes, {2}), std::vector<double>({1}));
 }

@@ -59,9 +59,21 @@ TEST(Probabilistic, shares_by_likelihood_beside_clutter) {
     claims[0].likelihood = 0.6;
     claims[1].likelihood = 0.2;
     claims[0].clutter = claims[1].clutter = 0.2;
+    claims[0].is_weighed = claims[1].is_weighed = true;
     make_strategy(StrategyKind::probabilistic, {})->assign(any_event, claims);
     // β_1 = 0.6/(0.2 + 0.8); the estimator itself has the factor 0.6/(0.2 + 0.6).
     EXPECT_DOUBLE_EQ(claims[0].weight * 0.6 / 0.8, 0.6);
+    EXPECT_DOUBLE_EQ(claims[1].weight * 0.2 / 0.4, 0.2);
+}
+
+TEST(Probabilistic, gives_all_of_its_share_to_what_does_not_weigh_clutter_by_itself) {
+    std::vector<Claim> claims = at_distances({1, 1});
+    claims[0].likelihood = 0.6;
+    claims[1].likelihood = 0.2;
+    claims[0].clutter = claims[1].clutter = 0.2;
+    claims[1].is_weighed = true;
+    make_strategy(StrategyKind::probabilistic, {})->assign(any_event, claims);
+    EXPECT_DOUBLE_EQ(claims[0].weight, 0.6);
     EXPECT_DOUBLE_EQ(claims[1].weight * 0.2 / 0.4, 0.2);
 }
 

@@ -51,6 +51,17 @@ TEST(ChanceSupport, takes_what_fires_in_a_part_of_the_image_for_no_noise) {
     EXPECT_EQ(least_neighbours(100, width_px * 2 / 5), 1);
 }
 
+TEST(ChanceSupport, wants_all_neighbours_where_all_surely_fire) {
+    ChanceSupport chance;
+    chance.begin(width_px, height_px);
+    for (int y = 0; y < height_px; ++y) {
+        for (int x = 0; x < width_px; ++x) chance.add(x, y);
+    }
+    for (const double times : {2, 8, 100}) {
+        EXPECT_EQ(chance.least_neighbours(over_us, times * over_us, third), 8) << times;
+    }
+}
+
 TEST(ChanceSupport, tells_nothing_of_a_small_box) {
     ChanceSupport chance;
     chance.begin(40, 40);

@@ -40,5 +40,21 @@ TEST(Cover, does_so_for_a_contour_of_more_pieces_than_it_has_parts) {
     expect_cover_to_tell_all_from_a_part(Contour(test::ring("ring", 30, 2000)));
 }
 
+TEST(Cover, expects_events_of_the_sides_alone_that_the_growth_moves) {
+    const Contour contour(test::polygon("box", {{-20, -20}, {20, -20}, {20, 20}, {-20, 20}}));
+    const Outline outline(contour);
+    Cover cover(contour);
+    const Velocity taller{0, 0, 0, 0, 2};
+    const auto& pieces = contour.pieces().pieces();
+    for (int round = 0; round < 50; ++round) {
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            if (pieces[i].ay != pieces[i].by) continue;
+            cover.count(static_cast<std::int32_t>(i));
+            if (cover.is_due()) cover.close_window(outline, {}, taller);
+        }
+    }
+    EXPECT_GT(cover.share(), 0.8);
+}
+
 }  // namespace
 }  // namespace pursuit::tracker

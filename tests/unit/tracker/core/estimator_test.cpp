@@ -166,6 +166,16 @@ TEST(KalmanEstimator, goes_as_usual_where_the_little_that_shows_does_not_tell) {
     EXPECT_NEAR(gone_down_px({{40, 0, 0, 0, 0}, 1, 0.01}), 2.5, 0.5);
 }
 
+TEST(Estimators, say_whether_they_weigh_events_against_clutter_by_themselves) {
+    for (const auto kind : {EstimatorKind::gradient, EstimatorKind::kalman}) {
+        const auto estimator = make_estimator(kind, TransformKind::isometry, test::square(), {});
+        estimator->restart(pose_of(100, 100, 0), {});
+        const Approach* const near = estimator->approach({1000, 80, 80, 1}, {});
+        ASSERT_NE(near, nullptr);
+        EXPECT_EQ(near->is_weighed, kind == EstimatorKind::kalman);
+    }
+}
+
 TEST(EventClock, tells_the_speed_by_the_rate) {
     EventClock clock;
     for (int i = 0; i < 400; ++i) {

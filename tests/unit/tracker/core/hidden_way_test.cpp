@@ -57,6 +57,29 @@ TEST(HiddenWay, strays_the_more_from_the_usual_the_more_it_did) {
     EXPECT_LT(strays_px_s(0), 0.05 * 80);
 }
 
+TEST(HiddenWay, takes_being_found_elsewhere_for_no_way) {
+    HiddenWay way;
+    const auto stand = [&](double x_px, std::int64_t from_us, std::int64_t to_us) {
+        for (std::int64_t t_us = from_us; t_us < to_us; t_us += 16'000) {
+            way.learn(t_us, pose_of(x_px, 100, 0));
+        }
+    };
+    stand(50, 0, 2'000'000);
+    way.learn_anew();
+    EXPECT_FALSE(way.usual().is_known());
+    stand(150, 2'500'000, 3'000'000);
+    ASSERT_TRUE(way.usual().is_known());
+    EXPECT_NEAR(way.usual().velocity.vx_px_s, 0, 1e-9);
+    EXPECT_LT(way.usual().strays_px_s, 0.5);
+}
+
+TEST(HiddenWay, knows_its_last_way_under_another_while_it_learns_anew) {
+    HiddenWay way;
+    way.begin({0, pose_of(5, 5, 0), {10, 0, 0, 0, 0}});
+    way.learn_anew();
+    EXPECT_EQ(way.last().velocity.vx_px_s, 10);
+}
+
 TEST(HiddenWay, goes_on_as_it_did_where_nothing_was_learnt) {
     HiddenWay way;
     way.begin({0, pose_of(5, 5, 0), {10, 0, 0, 0, 0}});

@@ -38,7 +38,7 @@ class LookingOut : public testing::Test {
                 most_z_ = std::max(most_z_, sight.own_z);
                 times_elsewhere_ += sight.instead.has_value();
             }
-            lookout_.see(event.x, event.y, event.polarity);
+            lookout_.see(event);
         }
         return sight;
     }
@@ -81,7 +81,7 @@ double nearest_rad(const Shape& shape, double found_rad, double near_rad) {
             own = own.at(own.t_us + Lookout::every_us, 1);
             lookout.look(own, 20, 30, true);
         }
-        lookout.see(event.x, event.y, event.polarity);
+        lookout.see(event);
     }
     own.pose.a = rotation(found_rad);
     return theta_rad(lookout.nearest_turn(own, near_rad).pose.a);
@@ -178,7 +178,7 @@ TEST(Lookout, takes_no_part_of_a_long_contour_for_something_else) {
             own = own.at(own.t_us + Lookout::every_us, 1);
             sight = lookout.look(own, contour.gyration_px(), contour.radius_px(), true);
         }
-        lookout.see(event.x, event.y, event.polarity);
+        lookout.see(event);
     }
     EXPECT_GT(sight.own_z, 8);
     EXPECT_TRUE(sight.is_even);
@@ -190,17 +190,19 @@ TEST_F(LookingOut, sees_nothing_of_what_is_another_objects) {
     Coast own{0, truth(24'000), {}};
     lookout_.look(own, contour_.gyration_px(), contour_.radius_px(), true);
     for (const Event& event : events) {
-        lookout_.see(event.x, event.y, event.polarity);
-        lookout_.disown(event.x, event.y, event.polarity);
+        lookout_.see(event);
+        lookout_.disown(event);
     }
     const auto& seen = lookout_.fresh().events;
     EXPECT_TRUE(std::all_of(seen.begin(), seen.end(), [](const auto& of_pixel) {
         return of_pixel[0] == 0 && of_pixel[1] == 0;
     }));
     // What was never seen is not missed.
-    lookout_.disown(150, 120, 1);
-    lookout_.disown(0, 0, 0);
-    lookout_.see(150, 120, 1);
+    lookout_.disown({25'000, 150, 120, 1});
+    lookout_.disown({25'000, 0, 0, 0});
+    lookout_.see({25'000, 150, 120, 1});
+    // Nor does it take an earlier one of its pixel away.
+    lookout_.disown({25'100, 150, 120, 1});
     EXPECT_EQ(std::count_if(seen.begin(), seen.end(),
                             [](const auto& of_pixel) { return of_pixel[1] == 1; }),
               1);

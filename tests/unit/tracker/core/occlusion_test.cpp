@@ -120,6 +120,52 @@ TEST_F(HiddenArrow, is_not_left_frozen_when_occlusion_is_no_more_told) {
     EXPECT_LT(rms_px(test::arrow(), at(3'840'000).pose, arrow_at(3.84e6)), 1);
 }
 
+// The arrow stops, and noise tells that it stands; the box comes over its head and stops as well.
+TEST_F(HiddenArrow, stays_behind_the_box_while_both_stand) {
+    constexpr std::int64_t arrow_stops_us = 400'000;
+    constexpr std::int64_t box_goes_us = 2'400'000;
+    constexpr std::int64_t box_stops_us = 4'000'000;
+    const auto coming = [](double t_us) {
+        return pose_of(230 - 60e-6 * (t_us - box_goes_us), 120, 0);
+    };
+    std::vector<Track> tracks;
+    const auto follow = [&](std::uint32_t object_id, const Shape& shape, const Pose& start) {
+        RegisteredObject object;
+        object.object_id = object_id;
+        object.shape = shape;
+        object.estimator = EstimatorKind::kalman;
+        object.start.pose = start;
+        tracks.emplace_back(object, TrackerParameters());
+        tracks.back().begin_stream(1, 0);
+    };
+    follow(1, test::arrow(), arrow_at(0));
+    follow(2, box(), coming(box_goes_us));
+    RecentPixels pixels;
+    pixels.restart(small_sensor);
+    Occlusion occlusion;
+    const auto reach = [&](std::int64_t t_us) {
+        if (t_us < occlusion.next_us()) return;
+        occlusion.look(t_us, tracks);
+        for (Track& track : tracks) track.reach_time(t_us, pixels);
+    };
+    const auto give = [&](Track& track, const std::vector<Event>& events) {
+        for (const Event& event : events) {
+            reach(event.t_us);
+            if (track.approach(event, pixels.note(event)) != nullptr) track.take(event, 1);
+        }
+    };
+    give(tracks[0],
+         outline_events(test::arrow(), arrow_at, 0, arrow_stops_us, 160, 0, small_sensor, 1));
+    give(tracks[0], outline_events(test::arrow(), arrow_at, arrow_stops_us, box_goes_us, 0, 0.5,
+                                   small_sensor, 2));
+    give(tracks[1],
+         outline_events(box(), coming, box_goes_us, box_stops_us, 160, 0, small_sensor, 3));
+    ASSERT_TRUE(occlusion.has_over(0));
+    for (std::int64_t t_us = box_stops_us; t_us < 8'000'000; t_us += 2'000) reach(t_us);
+    EXPECT_TRUE(occlusion.has_over(0));
+    EXPECT_FALSE(occlusion.has_over(1));
+}
+
 TEST_F(HiddenArrow, is_lost_when_it_does_not_come_out_again) {
     tracker_.begin_stream(small_sensor, 1);
     add(test::arrow(), arrow_at(0), 2);

@@ -41,11 +41,13 @@ TEST(OverlapEvidence, leaves_in_front_that_of_which_more_shows) {
     EXPECT_TRUE(car.decide(van));
 }
 
-TEST(OverlapEvidence, forgets) {
+TEST(OverlapEvidence, fades_and_holds_what_was_found) {
     OverlapEvidence evidence = of(40, 4);
-    EXPECT_FALSE(evidence.is_forgotten());
+    EXPECT_FALSE(evidence.is_faded());
+    ASSERT_TRUE(evidence.decide(of(50, 45)));
     evidence.fade(0.01);
-    EXPECT_TRUE(evidence.is_forgotten());
+    EXPECT_TRUE(evidence.is_faded());
+    EXPECT_TRUE(evidence.decide(of(0.5, 0.4)));
 }
 
 }  // namespace

@@ -81,5 +81,24 @@ TEST(Pose, is_sound_as_far_as_it_lies_within_2_percent_of_its_constrained_pose) 
     }
 }
 
+// A stretched pose turns, and grows by a rate of its own along each of its axes.
+TEST(RateOfArms, is_that_of_a_pose_that_turns_and_grows) {
+    const Velocity velocity{0, 0, 0.7, 0.3, -0.5};
+    const auto a_at = [&](double t_s) {
+        return pose_of(0, 0, 0.4 + velocity.omega_rad_s * t_s,
+                       1.5 * std::exp(velocity.scale_x_rate_per_s * t_s),
+                       0.8 * std::exp(velocity.scale_y_rate_per_s * t_s))
+            .a;
+    };
+    const Eigen::Matrix2d by_differences = (a_at(1e-4) - a_at(-1e-4)) / 2e-4;
+    EXPECT_LT((rate_of_arms(a_at(0), velocity) * a_at(0) - by_differences).norm(), 1e-6);
+}
+
+TEST(RateOfArms, is_the_same_all_around_where_both_rates_are) {
+    Eigen::Matrix2d rate;
+    rate << 0.3, -0.7, 0.7, 0.3;
+    EXPECT_EQ(rate_of_arms(pose_of(0, 0, 0.4, 2, 2).a, {5, 6, 0.7, 0.3, 0.3}), rate);
+}
+
 }  // namespace
 }  // namespace pursuit::tracker

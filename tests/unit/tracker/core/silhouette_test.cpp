@@ -29,6 +29,33 @@ TEST(Silhouette, of_a_box_is_as_deep_as_its_nearest_side) {
     EXPECT_EQ(box.depth_px({500, 0}), -Silhouette::reach_px);
 }
 
+// Cells of 3 px and more, of a side along them, across them and round.
+TEST(Silhouette, of_a_large_shape_covers_what_lies_inside_right_to_a_cell) {
+    for (const double size_px : {400.0, 700.0, 1500.0, 4000.0}) {
+        const double cell_px = std::max(1.0, (1.45 * size_px + 4) / 127);
+        Shape box = test::square();
+        for (auto& point : box.points_px) {
+            point = point.cwiseProduct(Eigen::Vector2f(1, 0.8F)) * static_cast<float>(size_px / 20);
+        }
+        for (const Shape& shape :
+             {box, test::ring("diamond", size_px, 4), test::ring("ring", size_px, 64)}) {
+            const Silhouette silhouette{Contour(shape)};
+            EXPECT_FALSE(silhouette.covers_nothing()) << shape.name << " " << size_px;
+            EXPECT_EQ(silhouette.depth_px({0, 0}), Silhouette::reach_px) << shape.name << size_px;
+            // Down the middle, in and out again.
+            const double end_px = shape.name == "square" ? 0.8 * size_px : size_px;
+            for (double y = -end_px + 1.5 * cell_px; y < end_px - 1.5 * cell_px; y += cell_px) {
+                EXPECT_GT(silhouette.depth_px({0.3, y}), 0) << shape.name << size_px << " " << y;
+            }
+            for (const double sign : {-1, 1}) {
+                const double y = sign * (end_px + 1.5 * cell_px);
+                EXPECT_LT(silhouette.depth_px({0.3, y}), 0) << shape.name << size_px << " " << y;
+                EXPECT_LT(silhouette.depth_px({sign * size_px, y}), 0) << shape.name << size_px;
+            }
+        }
+    }
+}
+
 TEST(Silhouette, is_as_deep_in_the_image_as_the_pose_makes_it) {
     const Silhouette box(
         Contour(test::polygon("box", {{-20, -10}, {20, -10}, {20, 10}, {-20, 10}})));

@@ -19,6 +19,12 @@ TEST(Going, makes_events_of_what_moves_across_itself_alone) {
     EXPECT_DOUBLE_EQ(turning.across_px_s(upright, {0, 10}), 80);
 }
 
+TEST(Going, makes_events_of_what_grows_along_the_axis_that_grows) {
+    const Going taller{Eigen::Matrix2d::Identity(), {0, 0, 0, 0, 2}};
+    EXPECT_DOUBLE_EQ(taller.across_px_s({{0, 10}, {4, 0}}, {0, 10}), 80);
+    EXPECT_DOUBLE_EQ(taller.across_px_s({{10, 0}, {0, 4}}, {10, 0}), 0);
+}
+
 TEST(Tally, learns_how_many_events_a_way_makes) {
     Outline outline{Contour(test::arrow())};
     const Going going{Eigen::Matrix2d::Identity(), {100, 40, 0, 0, 0}};
