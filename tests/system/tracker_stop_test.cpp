@@ -73,18 +73,18 @@ TEST(TrackerStop, by_a_signal_while_objects_are_restored_is_heard_before_they_ar
     const test::TemporaryFolder folder;
     const FreeDomain domain;
     const auto model = folder.file("model_one.csv", "x_px,y_px\n-9,-9\n9,-9\n9,9\n-9,9\n");
-    ChildProcess tracker("pursuit-tracker",
-                         {"--set", "dds.loopback_only=true", "--set",
-                          "dds.domain=" + std::to_string(domain.settings().domain()), "--set",
-                          "model=" + model},
-                         folder.path("log"), [] {
-                             // It waits for the program, which blocks it too.
-                             sigset_t set;
-                             ::sigemptyset(&set);
-                             ::sigaddset(&set, SIGTERM);
-                             ::sigprocmask(SIG_BLOCK, &set, nullptr);
-                             ::raise(SIGTERM);
-                         });
+    ChildProcess tracker(
+        "pursuit-tracker",
+        {"--set", "dds.loopback_only=true", "--set",
+         "dds.domain=" + std::to_string(domain.settings().domain()), "--set", "model=" + model},
+        folder.path("log"), [] {
+            // It waits for the program, which blocks it too.
+            sigset_t set;
+            ::sigemptyset(&set);
+            ::sigaddset(&set, SIGTERM);
+            ::sigprocmask(SIG_BLOCK, &set, nullptr);
+            ::raise(SIGTERM);
+        });
     EXPECT_EQ(tracker.wait(), 0) << tracker.log();
     EXPECT_NE(tracker.log().find("stops on SIGTERM while it starts"), std::string::npos);
     EXPECT_EQ(tracker.log().find("ready"), std::string::npos) << tracker.log();
