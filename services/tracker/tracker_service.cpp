@@ -241,9 +241,10 @@ void TrackerService::stop() {
     // No more work comes in, then none is done, then what was done is kept and told.
     events_.reset();
     if (core_) core_->stop();
-    if (core_ && requests_) count_rest();
+    const bool has_served = core_ && requests_;
+    if (has_served) count_rest();
     store_.reset();
-    if (core_) publish_last_status();
+    if (has_served) publish_last_status();
     requests_.reset();
     core_.reset();
 }
