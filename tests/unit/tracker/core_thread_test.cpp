@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/tracker/core_thread.hpp"
-#include "tests/support/manual_clock.hpp"
 
 #include <gtest/gtest.h>
 
 #include <future>
 #include <memory>
+
+#include "tests/support/manual_clock.hpp"
 
 namespace pursuit::tracker {
 namespace {
@@ -14,19 +15,21 @@ namespace {
 struct Core {
     pursuit::test::ManualClock clock;
     TrackerQueue queue{4, 4};
-    StoreWriter store{"", [](const std::string&) {}};
+    StoreWriter store{"", [](const std::string&) {}, [] {}};
     std::promise<void> replied;
-    CoreThread thread{std::make_unique<TrackerSession>(
-                          Tracker::create({}).value(), ServiceIdentity{}, std::nullopt,
-                          std::vector<Registration>{}, clock,
-                          SessionOutputs{[](v1::ObjectPose&) { return true; },
-                                         [](v1::PoseTrack&) { return true; },
-                                         [](v1::RegisteredModel&) { return true; },
-                                         [](v1::TrackerSettings&) { return true; },
-                                         [](const SessionFigures&) { return v1::TrackerStatus(); },
-                                         [](const std::string&) {}, [](const PoseRecord&) {}}),
-                      queue, store,
-                      [this](const v1::RequestId&, v1::TrackerReply) { replied.set_value(); }};
+    CoreThread thread{
+        std::make_unique<TrackerSession>(
+            Tracker::create({}).value(), ServiceIdentity{}, std::nullopt,
+            std::vector<Registration>{}, clock,
+            SessionOutputs{[](v1::ObjectPose&) { return true; },
+                           [](v1::PoseTrack&) { return true; },
+                           [](v1::RegisteredModel&) { return true; },
+                           [](v1::TrackerSettings&) { return true; },
+                           [](v1::RegisteredModel&) { return true; }, [](std::uint32_t) {},
+                           [](const SessionFigures&) { return v1::TrackerStatus(); },
+                           [](const std::string&) {}, [](const PoseRecord&) {},
+                           [](const std::string&) {}, [] { return true; }}),
+        queue, store, [this](const v1::RequestId&, v1::TrackerReply) { replied.set_value(); }};
 
     void ask(std::uint32_t times) {
         for (std::uint32_t i = 0; i < times; ++i) thread.figures();

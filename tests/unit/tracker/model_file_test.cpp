@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 
 TEST(ModelFile, a_written_model_is_read_back_bit_for_bit) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     ModelFile model;
     model.shape.name = "car";
     model.shape.points_px = {{-1.1F, 2.0F / 3}, {0.1F, -1.0F / 3}, {1.0F, -1.0F / 3}};
@@ -31,7 +31,7 @@ TEST(ModelFile, a_written_model_is_read_back_bit_for_bit) {
 }
 
 TEST(ModelFile, reads_points_about_their_centre_of_gravity_whatever_their_origin) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const auto model =
         read_model_file(folder.file("model_box.csv", "x_px,y_px\n10,20\n14,20\n14,26\n10,26\n"));
     ASSERT_TRUE(model) << model.error().message;
@@ -42,7 +42,7 @@ TEST(ModelFile, reads_points_about_their_centre_of_gravity_whatever_their_origin
 }
 
 TEST(ModelFile, takes_edges_beside_a_table_of_points) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     folder.file("a_edges.csv", "from,to\n0,1\n2,0\n");
     const auto model =
         read_model_file(folder.file("a.csv", "# remark\ny_px, x_px\n0,0\n\n0,4\n3,0\n"));
@@ -53,7 +53,7 @@ TEST(ModelFile, takes_edges_beside_a_table_of_points) {
 }
 
 TEST(ModelFile, names_file_line_and_cause_of_what_is_wrong) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const auto error_of = [&](const std::string& name, const std::string& content) {
         const auto model = read_model_file(folder.file(name, content));
         return model ? "" : model.error().message;
@@ -82,7 +82,7 @@ TEST(ModelFile, names_file_line_and_cause_of_what_is_wrong) {
 }
 
 TEST(ModelFile, names_the_line_of_what_a_shape_may_not_be) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const auto error_of = [&](const std::string& more) {
         const auto path = folder.file(
             "a.model.textproto",

@@ -123,7 +123,7 @@ TEST(ModelStore, refuses_a_model_that_a_request_could_not_have_registered) {
 }
 
 TEST(ModelStore, finds_nothing_where_no_file_is) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const auto read = read_store(folder.path("tracker.store"));
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_FALSE(read->state);
@@ -131,7 +131,7 @@ TEST(ModelStore, finds_nothing_where_no_file_is) {
 }
 
 TEST(ModelStore, reads_back_the_file_it_has_written_over_an_older_one) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const auto path = folder.path("tracker.store");
     ASSERT_TRUE(write_store(path, {}));
     ASSERT_TRUE(write_store(path, state()));
@@ -141,7 +141,7 @@ TEST(ModelStore, reads_back_the_file_it_has_written_over_an_older_one) {
 }
 
 TEST(ModelStore, keeps_a_damaged_file_aside_and_names_it) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const auto path = folder.file("tracker.store", "not a store");
     const auto read = read_store(path);
     ASSERT_TRUE(read) << read.error().message;
@@ -153,7 +153,7 @@ TEST(ModelStore, keeps_a_damaged_file_aside_and_names_it) {
 }
 
 TEST(ModelStore, behind_a_link_is_written_read_and_kept_aside_in_its_own_folder) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     std::filesystem::create_directory(folder.path("far"));
     const auto link = folder.path("tracker.store");
     std::filesystem::create_symlink("far/store", link);
@@ -169,7 +169,7 @@ TEST(ModelStore, behind_a_link_is_written_read_and_kept_aside_in_its_own_folder)
 }
 
 TEST(ModelStore, is_not_read_from_nor_written_over_what_is_no_regular_file) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const auto fifo = folder.path("fifo");
     ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
     const auto read = read_store(fifo);
@@ -180,7 +180,7 @@ TEST(ModelStore, is_not_read_from_nor_written_over_what_is_no_regular_file) {
 }
 
 TEST(ModelStore, takes_what_cannot_be_read_or_kept_aside_for_an_error_and_not_for_nothing) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const auto path = folder.path("tracker.store");
     std::filesystem::create_directory(path);
     auto read = read_store(path);
@@ -201,7 +201,7 @@ TEST(ModelStore, takes_what_cannot_be_read_or_kept_aside_for_an_error_and_not_fo
 }
 
 TEST(ModelStore, tells_that_a_folder_cannot_be_written) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const auto written = write_store(folder.path("missing/tracker.store"), state());
     ASSERT_FALSE(written);
     EXPECT_THAT(written.error().message, HasSubstr("missing/tracker.store"));

@@ -39,7 +39,7 @@ TEST(ConfiguredTracker, names_the_field_that_it_cannot_take) {
 }
 
 TEST(ConfiguredModels, names_the_entry_that_it_cannot_read) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     disk::TrackerConfig config;
     config.add_model(folder.file("van.csv", "x_px,y_px\n0,0\n9,0\n0,9\n"));
     config.add_model(folder.path("none.csv"));
@@ -50,7 +50,7 @@ TEST(ConfiguredModels, names_the_entry_that_it_cannot_read) {
 }
 
 TEST(ConfiguredModels, refuses_two_of_one_name_and_names_both) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const std::string triangle = "x_px,y_px\n0,0\n9,0\n0,9\n";
     const auto van = folder.file("van.csv", triangle);
     const auto car = folder.file("car.csv", triangle);

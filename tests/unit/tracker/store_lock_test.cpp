@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(StoreLock, is_had_by_one_at_a_time_and_names_the_store_to_others) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const std::string path = folder.path("tracker.store");
     {
         const auto first = StoreLock::take(path);
@@ -28,7 +28,7 @@ TEST(StoreLock, is_had_by_one_at_a_time_and_names_the_store_to_others) {
 }
 
 TEST(StoreLock, holds_while_the_store_is_replaced_and_moved_with) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const std::string path = folder.file("tracker.store", "old");
     StoreLock lock;
     lock = *StoreLock::take(path);
@@ -37,7 +37,7 @@ TEST(StoreLock, holds_while_the_store_is_replaced_and_moved_with) {
 }
 
 TEST(StoreLock, is_one_for_a_store_and_a_link_to_it) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const std::string path = folder.file("tracker.store", "");
     std::filesystem::create_symlink(path, folder.path("link"));
     const auto lock = StoreLock::take(path);
@@ -46,7 +46,7 @@ TEST(StoreLock, is_one_for_a_store_and_a_link_to_it) {
 }
 
 TEST(StoreLock, says_why_it_could_not_be_had_in_a_folder_that_is_not_there) {
-    const test::TemporaryFolder folder;
+    const pursuit::test::TemporaryFolder folder;
     const auto lock = StoreLock::take(folder.path("missing/tracker.store"));
     ASSERT_TRUE(lock);
     EXPECT_THAT(lock->problem(), HasSubstr("missing/tracker.store.lock: No such file"));

@@ -22,7 +22,7 @@ StoredState state_with(std::uint32_t next_object_id) {
 
 /// A writer whose folder is not there yet. The destructor ends after all that was asked for.
 struct WithoutFolder {
-    test::TemporaryFolder folder;
+    pursuit::test::TemporaryFolder folder;
     const std::string path = folder.path("later/tracker.store");
     std::promise<std::string> first_error;
     int errors = 0;

@@ -229,65 +229,67 @@ TEST(TrackerSession, counts_models_and_poses_that_could_not_be_written_together)
     auto remove = to_remove_the_arrow();
     EXPECT_EQ(restarted.session.answer(remove).outcome().code(), v1::STATUS_OK);
     EXPECT_EQ(restarted.session.figures().write_failures, poses_failed + 1);
-    TEST(TrackerSession, lets_the_middleware_forget_removed_models_but_for_the_last_16) {
-        Restarted restarted;
-        for (int i = 0; i < 20; ++i) restarted.come_and_go();
-        EXPECT_THAT(restarted.models_forgotten, testing::ElementsAre(1, 2, 3, 4));
-    }
+}
 
-    TEST(TrackerSession, lets_the_middleware_forget_poses_once_events_have_gone_past_the_removal) {
-        Restarted restarted;
-        restarted.packet_at(1'000);
-        restarted.come_and_go();
-        restarted.come_and_go();
-        restarted.packet_at(1'000);
-        EXPECT_TRUE(restarted.poses_forgotten.empty()) << "poses before the removal may still come";
-        restarted.packet_at(2'000);
-        EXPECT_THAT(restarted.poses_forgotten, testing::ElementsAre(1, 2));
-    }
+TEST(TrackerSession, lets_the_middleware_forget_removed_models_but_for_the_last_16) {
+    Restarted restarted;
+    for (int i = 0; i < 20; ++i) restarted.come_and_go();
+    EXPECT_THAT(restarted.models_forgotten, testing::ElementsAre(1, 2, 3, 4));
+}
 
-    TEST(TrackerSession, stores_at_once_that_an_id_was_given_to_a_call_that_waits) {
-        Restarted restarted;
-        v1::TrackerRequest request;
-        Registration registration;
-        registration.shape = test::arrow();
-        registration.start.pose = pose_of(100, 90, 0);
-        request.call().register_model(register_model(registration));
-        request.apply_at_us(1'000);
-        const auto revision = restarted.session.revision();
-        EXPECT_EQ(restarted.session.answer(request).outcome().code(), v1::STATUS_OK);
-        EXPECT_EQ(restarted.session.figures().calls_waiting, 1U);
-        EXPECT_NE(restarted.session.revision(), revision);
-        EXPECT_EQ(restarted.session.stored_state().next_object_id, 2U);
-    }
+TEST(TrackerSession, lets_the_middleware_forget_poses_once_events_have_gone_past_the_removal) {
+    Restarted restarted;
+    restarted.packet_at(1'000);
+    restarted.come_and_go();
+    restarted.come_and_go();
+    restarted.packet_at(1'000);
+    EXPECT_TRUE(restarted.poses_forgotten.empty()) << "poses before the removal may still come";
+    restarted.packet_at(2'000);
+    EXPECT_THAT(restarted.poses_forgotten, testing::ElementsAre(1, 2));
+}
 
-    TEST(TrackerSession, gives_up_between_two_objects_where_the_start_may_not_go_on) {
-        StoredState stored = tracked_at(pose_of(100, 90, 1));
-        stored.objects.push_back(stored.objects[0]);
-        stored.objects[1].object.object_id = 2;
-        stored.objects[1].object.shape.name = "second";
-        stored.next_object_id = 3;
-        EXPECT_TRUE(Restarted(stored).session.is_whole());
-        Restarted restarted(stored, {}, 1);
-        EXPECT_FALSE(restarted.session.is_whole());
-        EXPECT_EQ(restarted.session.stored_state().objects.size(), 1U);
-        EXPECT_TRUE(restarted.errors.empty());
-    }
+TEST(TrackerSession, stores_at_once_that_an_id_was_given_to_a_call_that_waits) {
+    Restarted restarted;
+    v1::TrackerRequest request;
+    Registration registration;
+    registration.shape = test::arrow();
+    registration.start.pose = pose_of(100, 90, 0);
+    request.call().register_model(register_model(registration));
+    request.apply_at_us(1'000);
+    const auto revision = restarted.session.revision();
+    EXPECT_EQ(restarted.session.answer(request).outcome().code(), v1::STATUS_OK);
+    EXPECT_EQ(restarted.session.figures().calls_waiting, 1U);
+    EXPECT_NE(restarted.session.revision(), revision);
+    EXPECT_EQ(restarted.session.stored_state().next_object_id, 2U);
+}
 
-    TEST(TrackerSession, tells_of_samples_that_were_not_taken_at_most_once_in_10_s) {
-        Restarted restarted;
-        restarted.takes_models = false;
-        restarted.come_and_go();
-        ASSERT_EQ(restarted.errors.size(), 1U);
-        EXPECT_THAT(restarted.errors[0], testing::HasSubstr("did not take 1 samples"));
-        restarted.clock.advance(9'999'999'999);
-        restarted.come_and_go();
-        EXPECT_EQ(restarted.errors.size(), 1U);
-        restarted.clock.advance(1);
-        restarted.come_and_go();
-        ASSERT_EQ(restarted.errors.size(), 2U);
-        EXPECT_THAT(restarted.errors[1], testing::HasSubstr("did not take 5 samples"));
-    }
+TEST(TrackerSession, gives_up_between_two_objects_where_the_start_may_not_go_on) {
+    StoredState stored = tracked_at(pose_of(100, 90, 1));
+    stored.objects.push_back(stored.objects[0]);
+    stored.objects[1].object.object_id = 2;
+    stored.objects[1].object.shape.name = "second";
+    stored.next_object_id = 3;
+    EXPECT_TRUE(Restarted(stored).session.is_whole());
+    Restarted restarted(stored, {}, 1);
+    EXPECT_FALSE(restarted.session.is_whole());
+    EXPECT_EQ(restarted.session.stored_state().objects.size(), 1U);
+    EXPECT_TRUE(restarted.errors.empty());
+}
+
+TEST(TrackerSession, tells_of_samples_that_were_not_taken_at_most_once_in_10_s) {
+    Restarted restarted;
+    restarted.takes_models = false;
+    restarted.come_and_go();
+    ASSERT_EQ(restarted.errors.size(), 1U);
+    EXPECT_THAT(restarted.errors[0], testing::HasSubstr("did not take 1 samples"));
+    restarted.clock.advance(9'999'999'999);
+    restarted.come_and_go();
+    EXPECT_EQ(restarted.errors.size(), 1U);
+    restarted.clock.advance(1);
+    restarted.come_and_go();
+    ASSERT_EQ(restarted.errors.size(), 2U);
+    EXPECT_THAT(restarted.errors[1], testing::HasSubstr("did not take 5 samples"));
+}
 
 }  // namespace
 }  // namespace pursuit::tracker
