@@ -66,6 +66,9 @@ TEST(TrackerStatus, tells_each_cause_by_its_name_and_sums_up_those_of_events_alo
     intake.dropped_packets = 1 << 11;
     intake.of_another_sensor = 1 << 12;
     intake.refused_requests = 1 << 13;
+    intake.left_events = 1 << 19;
+    intake.left_packets = 1 << 20;
+    intake.left_requests = 1 << 21;
     for (std::size_t i = 1; i < loss_causes; ++i) figures.tracker.lost_by[i] = 1U << (13 + i);
     const auto status = tracker_status({}, figures, {}, intake, clock);
     std::map<std::string, std::uint64_t> told;
@@ -89,12 +92,15 @@ TEST(TrackerStatus, tells_each_cause_by_its_name_and_sums_up_those_of_events_alo
         {"objects.lost.in_noise", 1 << 16},
         {"objects.lost.not_seen_again", 1 << 17},
         {"objects.lost.out_of_bounds", 1 << 18},
+        {"left_at_stop", 1 << 19},
+        {"packets.left_at_stop", 1 << 20},
+        {"requests.left_at_stop", 1 << 21},
     };
     EXPECT_EQ(told, expected);
     EXPECT_EQ(status.dropped_by().size(), expected.size());
-    EXPECT_EQ(status.events_dropped(), 1U << 1 | 1U << 2 | 1U << 3 | 1U << 4 | 1U << 10);
+    EXPECT_EQ(status.events_dropped(), 1U << 1 | 1U << 2 | 1U << 3 | 1U << 4 | 1U << 10 | 1U << 19);
     // What never came to the tracker came in all the same.
-    EXPECT_EQ(status.events_in(), 1U << 0 | 1U << 1 | 1U << 10);
+    EXPECT_EQ(status.events_in(), 1U << 0 | 1U << 1 | 1U << 10 | 1U << 19);
 }
 
 TEST(TrackerStatus, tells_every_other_figure_as_it_is) {
