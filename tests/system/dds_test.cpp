@@ -257,7 +257,11 @@ TEST_F(Requests, of_one_who_has_just_come_are_answered_once_more_by_themselves) 
 }
 
 TEST_F(Requests, without_a_service_fail_with_the_name_of_the_topic) {
+    // Its end has to be heard before the call is made.
+    auto listener = Writer<v1::SensorRequest>::create(*two_, topic::sensor_request);
+    ASSERT_TRUE(eventually([&] { return (*listener)->matched() == 1; }));
     server_.reset();
+    ASSERT_TRUE(eventually([&] { return (*listener)->matched() == 0; }));
     v1::SensorRequest request;
     const auto reply = client("")->call(request, 200ms);
     ASSERT_FALSE(reply);

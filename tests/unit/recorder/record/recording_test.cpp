@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/recorder/mcap_sample.hpp"
 
 namespace pursuit::recorder {
@@ -60,7 +61,7 @@ class GatedOutput final : public mcap::Output {
 class DropsOfARecording : public ::testing::Test {
  protected:
     DropsOfARecording() {
-        options_.output = "/nonexistent/a.mcap";
+        options_.output = folder_.path("a.mcap");
         options_.create = [this](auto&) { return std::make_unique<GatedOutput>(gate_, disk_); };
         options_.writer.chunk_bytes = 1;
         options_.writer.max_message_bytes = 100;
@@ -99,6 +100,7 @@ class DropsOfARecording : public ::testing::Test {
     }
     std::uint64_t written() const { return recording_->figures().files.messages; }
 
+    pursuit::test::TemporaryFolder folder_;  // nothing is written there
     const std::vector<TopicFacts> topics_ = {
         {"pursuit/poses", "pursuit::v1::ObjectPose", true, "poses", 16},
         {"pursuit/tracker/reply", "pursuit::v1::TrackerReply", false, "calls", 128}};

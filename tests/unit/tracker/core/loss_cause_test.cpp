@@ -112,7 +112,8 @@ TEST(LossCause, is_told_of_an_object_that_is_not_there_however_wide_its_gate) {
             const double x = 40 + 9.0 * static_cast<double>(random() % 14) +
                              std::fmod(1e-4 * static_cast<double>(t_us), 9);
             events.push_back({t_us, static_cast<std::uint16_t>(std::lround(x)),
-                              static_cast<std::uint16_t>(60 + random() % 120), 1});
+                              static_cast<std::uint16_t>(60 + random() % 120),
+                              static_cast<std::uint8_t>(random() % 2)});
         }
         Poses poses;
         tracker.process(events, poses);
