@@ -3,13 +3,10 @@
 // error squared, whose mean is the number of the components where it is. What the filter adds to it
 // for all that events have in common was tuned on eight scenes of discs, this one among them, with
 // other seeds.
-#include <gtest/gtest.h>
-
 #include <Eigen/LU>
 #include <cmath>
 
-#include "services/sensor/scene/scene_simulator.hpp"
-#include "services/tracker/core/tracker.hpp"
+#include "tests/experiments/simulated.hpp"
 
 namespace pursuit {
 namespace {
@@ -73,25 +70,13 @@ std::vector<Sample> followed(const char* scene_name, std::uint64_t seed) {
     const auto scene = sensor::load_scene(scene_name);
     EXPECT_TRUE(scene) << scene.error().message;
     sensor::SceneSimulator simulator(*scene, seed);
-    const auto& model = simulator.models().front();
-    tracker::Registration registration;
-    registration.shape.name = model.name;
-    for (const auto& point : model.model.points) {
-        registration.shape.points_px.emplace_back(static_cast<float>(point.x()),
-                                                  static_cast<float>(point.y()));
-    }
-    registration.estimator = tracker::EstimatorKind::kalman;
-    registration.start.pose =
-        tracker::pose_of(model.start.x_px, model.start.y_px, model.start.theta_rad);
+    auto registration = test::registration_of(simulator.models().front());
+    registration.shape.edges.clear();
     auto tracker = tracker::Tracker::create({});
     tracker->begin_stream(simulator.geometry(), 1);
     EXPECT_TRUE(tracker->register_object(registration));
     Compare compare(simulator, 200'000, 20'000);
-    std::vector<Event> events;
-    while (simulator.time_us() < 500'000 && simulator.next(10'000, events)) {
-        tracker->process(events, compare);
-        events.clear();
-    }
+    test::follow(simulator, *tracker, 500'000, compare);
     return compare.samples;
 }
 

@@ -31,6 +31,10 @@ constexpr double events_per_px = 3;
 constexpr double noise_in_search = 0.3;
 constexpr double noise_in_check = 0.1;
 
+// What is quiet may stand in noise, of which that share has such neighbours: more than twice as
+// many tell of an edge. (Of edges alone nearly all have them.)
+constexpr double least_share_of_edges = 0.25;
+
 // What an object is moved to has to explain what fired there as well, beside scoring higher.
 constexpr double explained_weight = 1;
 
@@ -119,7 +123,9 @@ void Seeker::begin(std::int64_t t_us, std::span<Track> tracks, const Occlusion& 
     }
     gather(t_us, range, chosen->radius_px(), count);
     const std::size_t least = waits ? count : count / 8;
-    if (gathered_.events().size() < (is_check_ ? wanted_events(*chosen, 0.2) : least)) {
+    const bool is_noise =
+        is_check_ && chosen->is_quiet() && gathered_.supported_share() < least_share_of_edges;
+    if (is_noise || gathered_.events().size() < (is_check_ ? wanted_events(*chosen, 0.2) : least)) {
         if (is_check_) chosen->wait_to_check(t_us);
         return;
     }

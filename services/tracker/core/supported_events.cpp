@@ -75,6 +75,9 @@ void SupportedEvents::gather(std::int64_t t_us, LastEvents& last, const Wish& wi
     });
     for (const std::size_t pixel : looked_at_) fired_us_[pixel] = never_us;
     leave_out_noise(static_cast<double>(t_us - first_us), wish);
+    supported_share_ = looked_at_.empty() ? 0
+                                          : static_cast<double>(events_.size()) /
+                                                static_cast<double>(looked_at_.size());
     if (events_.size() > wish.most) {
         events_.erase(events_.begin(), events_.end() - static_cast<std::ptrdiff_t>(wish.most));
     }

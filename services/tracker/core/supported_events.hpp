@@ -42,6 +42,9 @@ class SupportedEvents {
 
     /// In the order they came; to be led on in place.
     [[nodiscard]] std::vector<Event>& events() { return events_; }
+    /// How many of all that fired there have such neighbours, 0 … 1: of even noise
+    /// Wish::noise_share at most; 0 where nothing fired.
+    [[nodiscard]] double supported_share() const { return supported_share_; }
     /// Of them, at t_us; 0 where there is none.
     [[nodiscard]] double mean_age_us(std::int64_t t_us) const;
 
@@ -52,6 +55,7 @@ class SupportedEvents {
 
     Geometry geometry_;
     std::vector<Event> events_;
+    double supported_share_ = 0;
     std::vector<std::uint8_t> neighbours_;  // that fired shortly before, of each
     ChanceSupport chance_;
     // By pixel looked at, while gathering, since the first that is looked at; never in between.

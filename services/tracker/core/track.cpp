@@ -118,10 +118,8 @@ void Track::run_off(std::int64_t t_us) {
 }
 
 void Track::weigh(std::int64_t t_us) {
-    // At its start, until it is confirmed; what was found elsewhere since does make events.
-    const bool is_unseen = doubt_.is_open() && acquired_us_ == never_us;
     const bool is_noise =
-        is_unseen ? estimator_->may_see_noise_alone() : estimator_->sees_noise_alone();
+        is_unseen() ? estimator_->may_see_noise_alone() : estimator_->sees_noise_alone();
     const bool says_nothing = is_noise || grip_.health().is_quiet();
     vanishing_.count_own(t_us, grip_.sharp(), grip_.astray(),
                          says_nothing ? 0 : grip_.health().usual_sharpness());

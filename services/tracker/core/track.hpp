@@ -110,6 +110,8 @@ class Track {
     bool take_finding(std::int64_t t_us, const Doubt::Finding& finding) {
         return doubt_.take(t_us, finding);
     }
+    /// So few events come that the object does not move, or nobody sees it.
+    [[nodiscard]] bool is_quiet() const { return grip_.health().is_quiet(); }
     /// There were too few events to tell.
     void wait_to_check(std::int64_t t_us);
     /// The object is rather here than where it was thought to be.
@@ -179,6 +181,8 @@ class Track {
     /// Whether the object has fallen silent.
     void listen(std::int64_t t_us);
     void doubt_stretch(std::int64_t t_us);
+    /// At its start, until it is confirmed; what was found elsewhere since does make events.
+    [[nodiscard]] bool is_unseen() const { return doubt_.is_open() && acquired_us_ == never_us; }
     /// Of its contour, in the mean.
     [[nodiscard]] double speed_px_s() const;
     /// What the events counted since the last time, until t_us, say about the pose.

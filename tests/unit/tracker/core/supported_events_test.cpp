@@ -103,6 +103,34 @@ TEST(SupportedEvents, are_those_that_brute_force_finds_anywhere_in_the_image) {
     }
 }
 
+TEST(SupportedEvents, are_a_small_share_of_noise_and_nearly_all_of_an_edge) {
+    for (const int every_us : {4, 16, 64}) {
+        Stream stream;
+        see_noise(stream, 150'000 / every_us, every_us, 6);
+        auto wish = wish_of({100, 75}, 60, 0);
+        wish.noise_share = 0.1;
+        stream.gather(wish);
+        EXPECT_LT(stream.gathered().supported_share(), 0.15) << every_us;
+        wish.most = 1;
+        stream.gather(wish);
+        EXPECT_LT(stream.gathered().supported_share(), 0.15) << every_us;
+    }
+    Stream stream;
+    for (std::int64_t t_us = 0; t_us < 100'000; ++t_us) {
+        if (t_us % 16 != 0) continue;
+        stream.see({t_us, static_cast<std::uint16_t>(80 + t_us / 2'500),
+                    static_cast<std::uint16_t>(50 + t_us / 16 % 50), 1});
+    }
+    auto wish = wish_of({100, 75}, 60, 0);
+    wish.noise_share = 0.1;
+    stream.gather(wish);
+    EXPECT_GT(stream.gathered().supported_share(), 0.5);
+    wish.around_px = {10, 10};
+    wish.reach_px = 5;
+    stream.gather(wish);
+    EXPECT_EQ(stream.gathered().supported_share(), 0);
+}
+
 TEST(SupportedEvents, are_the_last_of_them_where_there_are_more_than_asked_for) {
     Stream stream;
     see_noise(stream, 3'000, 4, 2);
