@@ -207,8 +207,21 @@ class Requests : public Dds {
         EXPECT_TRUE(made);
         return std::move(*made);
     }
+    /// One who only writes, so many times the same; replies_ are counted.
+    void write_request(int times) {
+        reader_ = std::move(*Reader<v1::SensorReply>::create(*two_, topic::sensor_reply,
+                                                             [&](auto&, auto&) { ++replies_; }));
+        writer_ = std::move(*Writer<v1::SensorRequest>::create(*two_, topic::sensor_request));
+        ASSERT_TRUE(eventually([&] { return writer_->matched() == 1 && reader_->matched() == 1; }));
+        v1::SensorRequest request;
+        request.header().request_id(request_id(writer_->guid(), 7));
+        for (int i = 0; i < times; ++i) ASSERT_TRUE(writer_->write(request));
+    }
     std::atomic<int> handled_{0};
+    std::atomic<int> replies_{0};
     std::unique_ptr<Server> server_;
+    std::unique_ptr<Reader<v1::SensorReply>> reader_;
+    std::unique_ptr<Writer<v1::SensorRequest>> writer_;
 };
 
 TEST_F(Requests, are_answered_to_the_caller) {
@@ -228,30 +241,16 @@ TEST_F(Requests, for_another_instance_are_not_heard) {
 }
 
 TEST_F(Requests, with_the_same_id_are_answered_again_and_not_applied_again) {
-    std::atomic<int> replies{0};
-    auto reader = Reader<v1::SensorReply>::create(*two_, topic::sensor_reply,
-                                                  [&](auto&, auto&) { ++replies; });
-    auto writer = Writer<v1::SensorRequest>::create(*two_, topic::sensor_request);
-    ASSERT_TRUE(eventually([&] { return (*writer)->matched() == 1 && (*reader)->matched() == 1; }));
-    v1::SensorRequest request;
-    request.header().request_id(request_id((*writer)->guid(), 7));
-    for (int i = 0; i < 3; ++i) ASSERT_TRUE((*writer)->write(request));
-    EXPECT_TRUE(eventually([&] { return replies == 3; }));
+    ASSERT_NO_FATAL_FAILURE(write_request(3));
+    EXPECT_TRUE(eventually([&] { return replies_ == 3; }));
     EXPECT_EQ(handled_, 1);
 }
 
 TEST_F(Requests, of_one_who_has_just_come_are_answered_once_more_by_themselves) {
-    std::atomic<int> replies{0};
-    auto reader = Reader<v1::SensorReply>::create(*two_, topic::sensor_reply,
-                                                  [&](auto&, auto&) { ++replies; });
-    auto writer = Writer<v1::SensorRequest>::create(*two_, topic::sensor_request);
-    ASSERT_TRUE(eventually([&] { return (*writer)->matched() == 1 && (*reader)->matched() == 1; }));
-    v1::SensorRequest request;
-    request.header().request_id(request_id((*writer)->guid(), 7));
-    ASSERT_TRUE((*writer)->write(request));
+    ASSERT_NO_FATAL_FAILURE(write_request(1));
     EXPECT_TRUE(eventually([&] {
         server_->tick();
-        return replies == 2;
+        return replies_ == 2;
     }));
     EXPECT_EQ(handled_, 1);
 }

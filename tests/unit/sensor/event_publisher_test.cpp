@@ -5,11 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <future>
 #include <memory>
-#include <optional>
 
-#include "tests/support/manual_clock.hpp"
 #include "tests/unit/sensor/sent_packets.hpp"
 
 namespace pursuit::sensor {
@@ -36,29 +33,11 @@ class ShortSource final : public EventReader {
     bool fails_;
 };
 
-/// A publisher that has sent all of its source.
-struct Published {
+struct Published : SentToItsEnd<EventPublisher> {
     Published(std::size_t events, bool fails, std::function<bool(const v1::EventPacket&)> takes) {
-        config.set_packet_events(10);
         sent.takes = std::move(takes);
-        std::promise<void> farewell;
-        sent.acknowledges = [&] {
-            farewell.set_value();
-            return true;
-        };
-        publisher.emplace(config, sent.outputs(), pacer, clock, *filters,
-                          std::make_unique<ShortSource>(events, fails));
-        publisher->start();
-        farewell.get_future().wait();
-        publisher->stop();
+        run(std::make_unique<ShortSource>(events, fails));
     }
-
-    disk::SensorConfig config;
-    pursuit::test::ManualClock clock;
-    Pacer pacer{clock, 0};
-    std::unique_ptr<FilterSwitch> filters = std::move(*FilterSwitch::make({}));
-    SentPackets sent;
-    std::optional<EventPublisher> publisher;
 };
 
 TEST(EventPublisher, sends_all_of_a_source_and_its_end) {

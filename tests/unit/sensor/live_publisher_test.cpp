@@ -7,9 +7,7 @@
 #include <functional>
 #include <future>
 #include <memory>
-#include <optional>
 
-#include "tests/support/manual_clock.hpp"
 #include "tests/unit/sensor/sent_packets.hpp"
 
 namespace pursuit::sensor {
@@ -26,29 +24,10 @@ class ScriptedInput final : public LiveInput {
     Hear hear_;
 };
 
-/// A publisher of a live source that has ended; packets of 10 events, a queue of 100.
-struct Live {
-    void run(Hear hear) {
-        config.set_packet_events(10);
-        config.set_live_buffer_events(100);
-        std::promise<void> farewell;
-        sent.acknowledges = [&] {
-            farewell.set_value();
-            return true;
-        };
-        publisher.emplace(config, sent.outputs(), pacer, clock, *filters,
-                          std::make_unique<ScriptedInput>(std::move(hear)));
-        publisher->start();
-        farewell.get_future().wait();
-        publisher->stop();
-    }
-
-    disk::SensorConfig config;
-    pursuit::test::ManualClock clock;
-    Pacer pacer{clock, 0};
-    std::unique_ptr<FilterSwitch> filters = std::move(*FilterSwitch::make({}));
-    SentPackets sent;
-    std::optional<LivePublisher> publisher;
+/// With a queue of 100 events.
+struct Live : SentToItsEnd<LivePublisher> {
+    Live() { config.set_live_buffer_events(100); }
+    void hear(Hear from) { run(std::make_unique<ScriptedInput>(std::move(from))); }
 };
 
 void push(LiveSink& sink, std::int64_t t_us, std::size_t count) {
@@ -66,7 +45,7 @@ TEST(LivePublisher, tells_in_the_next_packet_and_counts_what_the_full_queue_push
         }
         return true;
     };
-    live.run([&](LiveSink& sink) {
+    live.hear([&](LiveSink& sink) {
         sink.begin({20, 10});
         push(sink, 0, 10);
         sending.get_future().wait();
@@ -87,7 +66,7 @@ TEST(LivePublisher, tells_in_the_next_packet_and_counts_what_the_full_queue_push
 TEST(LivePublisher, counts_a_packet_that_was_not_taken_and_tells_the_fault_of_the_stream) {
     Live live;
     live.sent.takes = [](const auto& packet) { return packet.sequence_number() != 0; };
-    live.run([](LiveSink& sink) {
+    live.hear([](LiveSink& sink) {
         sink.begin({20, 10});
         push(sink, 0, 20);
         sink.end("the cable is out");

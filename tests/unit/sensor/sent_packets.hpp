@@ -4,11 +4,16 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <future>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/sensor/publisher.hpp"
+#include "tests/support/manual_clock.hpp"
 
 namespace pursuit::sensor {
 
@@ -38,6 +43,33 @@ struct SentPackets {
                  [](std::chrono::milliseconds) { return true; }, [] { return 0; }},
                 [this](const std::string& message) { errors.push_back(message); }};
     }
+};
+
+/// A publisher that has sent all of its source and has ended: packets of 10 events, as fast as
+/// possible.
+template <class Publisher>
+struct SentToItsEnd {
+    SentToItsEnd() { config.set_packet_events(10); }
+
+    template <class Source>
+    void run(std::unique_ptr<Source> source) {
+        std::promise<void> farewell;
+        sent.acknowledges = [&] {
+            farewell.set_value();
+            return true;
+        };
+        publisher.emplace(config, sent.outputs(), pacer, clock, *filters, std::move(source));
+        publisher->start();
+        farewell.get_future().wait();
+        publisher->stop();
+    }
+
+    disk::SensorConfig config;
+    pursuit::test::ManualClock clock;
+    Pacer pacer{clock, 0};
+    std::unique_ptr<FilterSwitch> filters = std::move(*FilterSwitch::make({}));
+    SentPackets sent;
+    std::optional<Publisher> publisher;
 };
 
 /// Events 1 us apart, their polarities in turn.
