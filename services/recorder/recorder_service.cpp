@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "services/common/request_losses.hpp"
 #include "services/recorder/record/record_activity.hpp"
 #include "services/recorder/replay/replay_activity.hpp"
 #include "services/recorder/replay/replay_topics.hpp"
@@ -167,6 +168,7 @@ v1::RecorderStatus RecorderService::status() {
     status.health(health_.snapshot(participant_->counts()));
     activity_->fill(status);
     count_peers(participant_->counts(), status.dropped_by());
+    if (server_) add_losses(status.dropped_by(), *server_);
     return status;
 }
 

@@ -205,6 +205,17 @@ TEST_F(Recorder, that_ends_gives_who_reads_its_status_time_for_the_last_one) {
     EXPECT_EQ(process->wait(), 0) << process->log();
 }
 
+TEST_F(Recorder, counts_the_calls_and_replies_that_it_lost) {
+    auto process = recorder({"output=" + path("run.mcap")});
+    EXPECT_TRUE(connect()) << process->log();
+    std::vector<std::string> none_lost;
+    for (const auto& cause : status().dropped_by()) {
+        if (cause.count() == 0) none_lost.push_back(cause.name().to_string());
+    }
+    EXPECT_THAT(none_lost,
+                ::testing::IsSupersetOf({"requests.not_taken", "writes.replies_failed"}));
+}
+
 TEST_F(Recorder, on_a_full_disk_says_so_goes_on_and_records_again_when_there_is_room) {
     const auto disk = path("disk");
     std::filesystem::create_directory(disk);
