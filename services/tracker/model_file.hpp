@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "services/common/result.hpp"
-#include "services/tracker/core/pose.hpp"
-#include "services/tracker/core/shape.hpp"
+#include "services/tracker/core/geometry/pose.hpp"
+#include "services/tracker/core/geometry/shape.hpp"
 
 namespace pursuit::tracker {
 

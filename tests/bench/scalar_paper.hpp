@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "services/common/event.hpp"
+#include "services/tracker/core/geometry/pose.hpp"
+#include "services/tracker/core/geometry/shape.hpp"
 #include "services/tracker/core/parameters.hpp"
-#include "services/tracker/core/pose.hpp"
-#include "services/tracker/core/shape.hpp"
 
 namespace pursuit::tracker::bench {
 

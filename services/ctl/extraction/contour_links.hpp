@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "services/tracker/core/shape.hpp"
+#include "services/tracker/core/geometry/shape.hpp"
 
 namespace pursuit::ctl {
 

@@ -9,13 +9,13 @@
 
 #include "services/common/event.hpp"
 #include "services/tracker/core/association/arbiter.hpp"
+#include "services/tracker/core/geometry/reach_map.hpp"
+#include "services/tracker/core/life/track.hpp"
 #include "services/tracker/core/occlusion.hpp"
+#include "services/tracker/core/pixels/recent_pixels.hpp"
 #include "services/tracker/core/pose_grid.hpp"
 #include "services/tracker/core/pose_record.hpp"
-#include "services/tracker/core/reach_map.hpp"
-#include "services/tracker/core/recent_pixels.hpp"
 #include "services/tracker/core/seeker.hpp"
-#include "services/tracker/core/track.hpp"
 #include "services/tracker/core/tracker_counters.hpp"
 #include "services/tracker/core/tracker_options.hpp"
 

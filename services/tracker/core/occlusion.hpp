@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "services/common/event.hpp"
+#include "services/tracker/core/life/track.hpp"
 #include "services/tracker/core/overlap_evidence.hpp"
-#include "services/tracker/core/track.hpp"
 
 namespace pursuit::tracker {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string_view>
 
+#include "services/tracker/core/geometry/pose.hpp"
 #include "services/tracker/core/kinds.hpp"
-#include "services/tracker/core/pose.hpp"
 
 namespace pursuit::tracker {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "services/tracker/core/geometry/pose.hpp"
+#include "services/tracker/core/geometry/shape.hpp"
 #include "services/tracker/core/kinds.hpp"
 #include "services/tracker/core/parameters.hpp"
-#include "services/tracker/core/pose.hpp"
-#include "services/tracker/core/shape.hpp"
 
 namespace pursuit::tracker {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "services/tracker/core/lead_on.hpp"
-#include "services/tracker/core/where_to_look.hpp"
+#include "services/tracker/core/life/where_to_look.hpp"
+#include "services/tracker/core/search/lead_on.hpp"
 
 namespace pursuit::tracker {
 namespace {

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "services/common/event.hpp"
-#include "services/tracker/core/chase.hpp"
-#include "services/tracker/core/fired_map.hpp"
-#include "services/tracker/core/last_events.hpp"
+#include "services/tracker/core/life/track.hpp"
 #include "services/tracker/core/occlusion.hpp"
-#include "services/tracker/core/shape_search.hpp"
+#include "services/tracker/core/pixels/last_events.hpp"
+#include "services/tracker/core/search/chase.hpp"
+#include "services/tracker/core/search/fired_map.hpp"
+#include "services/tracker/core/search/shape_search.hpp"
 #include "services/tracker/core/supported_events.hpp"
-#include "services/tracker/core/track.hpp"
 
 namespace pursuit::tracker {
 

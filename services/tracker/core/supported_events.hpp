@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "services/common/event.hpp"
-#include "services/tracker/core/chance_support.hpp"
-#include "services/tracker/core/coast.hpp"
-#include "services/tracker/core/last_events.hpp"
-#include "services/tracker/core/silhouette.hpp"
+#include "services/tracker/core/geometry/coast.hpp"
+#include "services/tracker/core/geometry/silhouette.hpp"
+#include "services/tracker/core/pixels/chance_support.hpp"
+#include "services/tracker/core/pixels/last_events.hpp"
 
 namespace pursuit::tracker {
 

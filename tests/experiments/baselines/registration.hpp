@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "services/tracker/core/pose.hpp"
+#include "services/tracker/core/geometry/pose.hpp"
 
 namespace pursuit::experiments {
 

@@ -8,8 +8,8 @@ namespace {
 
 using namespace test;  // NOLINT(google-build-using-namespace)
 
-constexpr Geometry sensor{1000, 600};
-constexpr int objects = 8;
+constexpr Geometry crowd_sensor{1000, 600};
+constexpr int crowd_size = 8;
 
 std::string name_of(int i) { return "arrow_" + std::to_string(i); }
 
@@ -24,9 +24,9 @@ Pose truth(int i, double t_us) {
 /// What all of them make, and noise.
 std::vector<Event> events() {
     std::vector<Event> all;
-    for (int i = 0; i < objects; ++i) {
+    for (int i = 0; i < crowd_size; ++i) {
         const auto pose_at = [&](double t_us) { return truth(i, t_us); };
-        const auto of_one = outline_events(arrow(), pose_at, 0, 120'000, 40, 40, sensor,
+        const auto of_one = outline_events(arrow(), pose_at, 0, 120'000, 40, 40, crowd_sensor,
                                            static_cast<std::uint32_t>(i));
         all.insert(all.end(), of_one.begin(), of_one.end());
     }
@@ -40,7 +40,7 @@ std::vector<PoseRecord> followed(int from, int to, const Registration& like) {
     TrackerOptions options;
     options.max_poses_per_s = 1e6;
     Tracker tracker = Tracker::create(options).value();
-    tracker.begin_stream(sensor, 1);
+    tracker.begin_stream(crowd_sensor, 1);
     // Searches take turns: who is searched for depends on who else there is.
     const std::vector<NamedValue> alone{{"checks_pose", 0}, {"let_go_sharpness", 0}};
     EXPECT_TRUE(tracker.set_parameters("", alone));
@@ -73,8 +73,8 @@ void expect_the_same_alone_and_among_others(const Registration& like) {
     }
 }
 
-// Of few objects each is asked about all that comes in the cells around it, of many about what is
-// as near as it reaches.
+// Of few objects each is asked about all that comes in the cells around it, of many about what
+// is as near as it reaches.
 
 TEST(Crowd, moves_an_object_of_the_filter_as_if_it_were_alone) {
     Registration like;

@@ -10,7 +10,7 @@
 #include "services/common/event.hpp"
 #include "services/tracker/core/pose_record.hpp"
 #include "services/tracker/core/registration.hpp"
-#include "services/tracker/core/search_range.hpp"
+#include "services/tracker/core/search/search_range.hpp"
 #include "services/tracker/core/tracker.hpp"
 
 namespace pursuit::tracker::test {
