@@ -43,19 +43,16 @@ void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
     for (auto& [pair, evidence] : evidence_) evidence.fade(kept);
 
     overlaps_.clear();
-    rounds_.clear();
-    for (const Track& track : tracks) {
-        const Pose pose = track.pose();
-        rounds_.push_back({pose.t_px, track.contour().radius_px() * largest_scale(pose.a),
-                           track.can_hide(), track.can_be_hidden()});
-    }
     fronts_.clear();
     for (std::size_t k = 0; k < tracks.size(); ++k) {
-        if (rounds_[k].can_hide) fronts_.push_back(k);
+        if (tracks[k].can_hide()) fronts_.push_back(k);
     }
+    // (Where nobody can hide another, nobody needs to know where they are.)
+    const bool may_any_overlap = tracks.size() > 1 && !fronts_.empty();
+    if (may_any_overlap) note_rounds(tracks);
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const std::size_t before = overlaps_.size();
-        if (rounds_[i].can_be_hidden) {
+        if (may_any_overlap && tracks[i].can_be_hidden()) {
             for (const std::size_t k : fronts_) {
                 if (i != k && may_overlap(rounds_[i], rounds_[k])) overlaps_.push_back({i, k});
             }
@@ -85,6 +82,14 @@ void Occlusion::look(std::int64_t t_us, std::span<Track> tracks) {
                             [&](std::size_t k) { return image_depth_px(tracks[k], p) > -band_px; });
         }
         track.see(t_us);
+    }
+}
+
+void Occlusion::note_rounds(std::span<const Track> tracks) {
+    rounds_.clear();
+    for (const Track& track : tracks) {
+        const Pose pose = track.pose();
+        rounds_.push_back({pose.t_px, track.contour().radius_px() * largest_scale(pose.a)});
     }
 }
 

@@ -56,9 +56,8 @@ class Occlusion {
     struct Round {
         Eigen::Vector2d t_px;
         double radius_px = 0;
-        bool can_hide = false;
-        bool can_be_hidden = false;
     };
+    void note_rounds(std::span<const Track> tracks);
     [[nodiscard]] static bool may_overlap(const Round& one, const Round& other);
 
     struct Overlap {
@@ -76,7 +75,7 @@ class Occlusion {
     std::int64_t next_us_ = 0;
     std::int64_t last_us_ = -1;
     std::map<Pair, OverlapEvidence> evidence_;  // of the inner one's contour
-    std::vector<Round> rounds_;                 // by index
+    std::vector<Round> rounds_;                 // by index; where any may overlap
     std::vector<std::size_t> fronts_;           // those that can hide others
     std::vector<Overlap> overlaps_;
     std::vector<Pair> behind_;                         // of the overlaps, sorted

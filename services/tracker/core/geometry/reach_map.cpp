@@ -25,7 +25,9 @@ void ReachMap::enter(std::size_t index, const Reach& reach) {
         return;
     }
     if (placed.radius_px >= 0) mark(index, placed, false);
-    placed = {reach.center_px, reach.radius_px + margin_px};
+    const bool is_close = is_crowded_ && !reach.is_sudden;
+    const double around_px = is_close ? crowded_margin_px : margin_px;
+    placed = {reach.center_px, reach.radius_px + around_px};
     mark(index, placed, true);
 }
 

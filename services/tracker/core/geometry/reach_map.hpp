@@ -38,15 +38,16 @@ class ReachMap {
 
     /// Where the object of this index reaches from now on.
     void place(std::size_t index, const Reach& reach) {
-        if (is_crowded_) {
-            const double radius_px = reach.radius_px + reserve_px;
-            told_[index] = {reach.center_px, radius_px * radius_px, reach.is_sudden};
-        }
         const Reach& placed = placed_[index];
         const double slack_px = placed.radius_px - reach.radius_px - reserve_px;
-        const bool is_there =
-            reach.radius_px >= 0 && slack_px >= 0 && slack_px < 4 * margin_px &&
-            (reach.center_px - placed.center_px).squaredNorm() <= slack_px * slack_px;
+        bool is_there = reach.radius_px >= 0 && slack_px >= 0 && slack_px < 4 * margin_px &&
+                        (reach.center_px - placed.center_px).squaredNorm() <= slack_px * slack_px;
+        if (is_crowded_) {
+            Told& told = told_[index];
+            is_there &= told.is_sudden == reach.is_sudden;
+            const double radius_px = reach.radius_px + reserve_px;
+            told = {reach.center_px, radius_px * radius_px, reach.is_sudden};
+        }
         if (!is_there) enter(index, reach);
     }
 
@@ -126,6 +127,9 @@ class ReachMap {
 
     static constexpr int cell_bits = 4;
     static constexpr double margin_px = 10;
+    // Of many objects it is told with each of their events where they are: the less margin they
+    // have, the fewer events are near two of them. What is sudden needs all of it.
+    static constexpr double crowded_margin_px = 5;
     static constexpr std::size_t few_objects = 4;
 
     std::size_t columns_ = 0;

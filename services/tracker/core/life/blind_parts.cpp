@@ -19,6 +19,11 @@ constexpr double memory = 0.2;
 
 void look_for_blind_parts(std::int64_t t_us, const Pose& pose, const Velocity& velocity,
                           double radius_px, const RecentPixels& pixels, Outline& outline) {
+    // Of many objects most stand: they come over nothing.
+    if (velocity == Velocity()) {
+        outline.fade_blind(1 - memory);
+        return;
+    }
     const Eigen::Matrix2d rate_of_d = rate_of_arms(pose.a, velocity);
     const Eigen::Vector2d v(velocity.vx_px_s, velocity.vy_px_s);
     const double least_px_s = least_blind_px / (pixels.blind_us() * 1e-6);

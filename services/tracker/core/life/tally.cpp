@@ -6,23 +6,16 @@
 
 namespace pursuit::tracker {
 
-double Going::across_px_s(const Outline::Part& part, const Eigen::Vector2d& arm_px) const {
-    const Eigen::Vector2d speed =
-        Eigen::Vector2d(velocity.vx_px_s, velocity.vy_px_s) + rate_of_arms(a, velocity) * arm_px;
-    const Eigen::Vector2d along = a * part.along_px;
-    return std::abs(along.x() * speed.y() - along.y() * speed.x());
-}
-
 double Going::visible_share(const Outline& outline, double radius_px) const {
     // Also a part that moves along itself makes some events.
     constexpr double sideways_share = 0.1;
     const double speed_px_s =
-        std::hypot(velocity.vx_px_s, velocity.vy_px_s, velocity.omega_rad_s * radius_px) + 1e-9;
+        std::hypot(velocity_.vx_px_s, velocity_.vy_px_s, velocity_.omega_rad_s * radius_px) + 1e-9;
     double seen = 0;
     double whole = 0;
     for (const Outline::Part& part : outline.parts()) {
-        const double shows = across_px_s(part, a * part.middle_px) / speed_px_s +
-                             sideways_share * (a * part.along_px).norm();
+        const double shows = across_px_s(part, arm_px_of(part.middle_px)) / speed_px_s +
+                             sideways_share * (a_ * part.along_px).norm();
         whole += shows;
         if (!part.is_hidden) seen += shows;
     }
@@ -38,7 +31,7 @@ void Tally::learn(const Outline& outline, const Going& going) {
     for (const Outline::Part& part : outline.parts()) {
         if (part.is_hidden) continue;
         events_ += part.events;
-        px2_ += going.across_px_s(part, going.a * part.middle_px) * over_s_;
+        px2_ += going.across_px_s(part, going.arm_px_of(part.middle_px)) * over_s_;
     }
     if (events_ > most_events) {
         px2_ *= most_events / events_;

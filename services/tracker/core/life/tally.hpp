@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 
 #include "services/tracker/core/geometry/outline.hpp"
@@ -10,17 +11,33 @@
 namespace pursuit::tracker {
 
 /// How an object goes: a pose's A and the velocity, for all parts of its outline.
-struct Going {
-    Eigen::Matrix2d a;
-    Velocity velocity;
+class Going {
+ public:
+    Going(const Eigen::Matrix2d& a, const Velocity& velocity)
+        : a_(a), velocity_(velocity), rate_of_arms_(rate_of_arms(a, velocity)) {}
 
+    [[nodiscard]] const Velocity& velocity() const { return velocity_; }
+    /// Of a place of the model frame, from the object's own place, image px.
+    [[nodiscard]] Eigen::Vector2d arm_px_of(const Eigen::Vector2d& place_px) const {
+        return a_ * place_px;
+    }
     /// How fast a part with this arm (image) moves across itself, times its length: what makes its
     /// events.
     [[nodiscard]] double across_px_s(const Outline::Part& part,
-                                     const Eigen::Vector2d& arm_px) const;
+                                     const Eigen::Vector2d& arm_px) const {
+        const Eigen::Vector2d speed =
+            Eigen::Vector2d(velocity_.vx_px_s, velocity_.vy_px_s) + rate_of_arms_ * arm_px;
+        const Eigen::Vector2d along = a_ * part.along_px;
+        return std::abs(along.x() * speed.y() - along.y() * speed.x());
+    }
     /// How much of what the motion shows of the outline is not hidden, 0 … 1; radius_px: of the
     /// shape, image.
     [[nodiscard]] double visible_share(const Outline& outline, double radius_px) const;
+
+ private:
+    Eigen::Matrix2d a_;
+    Velocity velocity_;
+    Eigen::Matrix2d rate_of_arms_;
 };
 
 /// How many events an object's motion makes: ρ, of contour length times the way across it, learnt

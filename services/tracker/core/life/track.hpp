@@ -131,7 +131,7 @@ class Track {
     [[nodiscard]] double radius_px() const;
     [[nodiscard]] double depth_order() const { return parameters_.depth_order; }
     /// Where it is thought to be and how it goes.
-    [[nodiscard]] Coast now(std::int64_t t_us) const { return {t_us, pose(), going().velocity}; }
+    [[nodiscard]] Coast now(std::int64_t t_us) const { return {t_us, pose(), going().velocity()}; }
     [[nodiscard]] bool can_hide() const;
     [[nodiscard]] bool can_be_hidden() const;
     [[nodiscard]] bool is_partly_hidden() const { return visible_share_ < 1; }

@@ -22,12 +22,13 @@ constexpr std::int64_t unmoved_us = 500'000;
 std::optional<SearchRange> Track::wanted(std::int64_t t_us, Geometry geometry) const {
     if (t_us < trial_until_us_) return std::nullopt;
     if (!is_searching_ && !is_acquiring_) {
+        if (!doubt_.is_due(t_us)) return std::nullopt;
+        if (near_since_check_ < worth_a_check && t_us < unmoved_until_us_) return std::nullopt;
         // What was not seen yet and is quiet may make its events elsewhere.
         const bool is_lively = !grip_.health().is_quiet() || is_unseen();
         const bool is_told =
             !is_covered_ && emerged_us_ < 0 && is_lively && !estimator_->sees_noise_alone();
-        if (near_since_check_ < worth_a_check && t_us < unmoved_until_us_) return std::nullopt;
-        if (!is_told || !doubt_.is_due(t_us)) return std::nullopt;
+        if (!is_told) return std::nullopt;
         return range_of_check(t_us, {t_us, pose(), estimator_->velocity()}, doubt_,
                               good_.before().pose, tracker_.coast_s);
     }

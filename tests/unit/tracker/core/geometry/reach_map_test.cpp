@@ -128,6 +128,15 @@ TEST(ReachMap, asks_an_object_that_may_be_elsewhere_in_all_of_its_cells) {
     EXPECT_FALSE(map.reaches(3, 125, 120));
 }
 
+TEST(ReachMap, of_many_objects_asks_one_that_may_be_elsewhere_farther_about_at_once) {
+    ReachMap map = crowded();
+    EXPECT_FALSE(is_asked(map, 3, 128, 100));
+    map.place(3, {{100, 100}, 20, true});
+    EXPECT_TRUE(is_asked(map, 3, 128, 100));
+    map.place(3, {{100, 100}, 20, false});
+    EXPECT_FALSE(is_asked(map, 3, 128, 100));
+}
+
 TEST(ReachMap, asks_each_of_a_few_objects_in_all_of_its_cells) {
     ReachMap map;
     map.restart(small_sensor, 2);

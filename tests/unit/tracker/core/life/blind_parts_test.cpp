@@ -72,6 +72,16 @@ TEST(BlindParts, are_those_that_grow_over_pixels_that_just_fired) {
     }
 }
 
+TEST(BlindParts, are_forgotten_while_an_object_stands) {
+    const Contour contour(test::polygon("box", {{-10, -10}, {10, -10}, {10, 10}, {-10, 10}}));
+    Outline outline(contour);
+    for (Outline::Part& part : outline.parts()) outline.set_blind(part, 1);
+    RecentPixels pixels;
+    pixels.restart(geometry);
+    for (int i = 0; i < 10; ++i) look_for_blind_parts(0, Pose(), Velocity(), 15, pixels, outline);
+    for (std::int32_t piece = 0; piece < 4; ++piece) EXPECT_TRUE(outline.can_be_seen(piece));
+}
+
 TEST(BlindParts, are_none_of_an_object_that_takes_longer_than_its_pixels_are_blind) {
     EXPECT_EQ(seen_length_share(right_px_s / 10), 1);
 }
