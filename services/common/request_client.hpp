@@ -50,6 +50,29 @@ class RequestClient {
     /// How many readers hear the requests: services, and recorders of them.
     int heard_by() const { return writer_->matched(); }
 
+    /// Waits until nobody new has begun to hear requests for `quiet`, `at_most` in all: recorders,
+    /// which what was sent before they hear never reaches.
+    void wait_for_listeners(std::chrono::milliseconds quiet, std::chrono::milliseconds at_most) {
+        std::unique_lock lock(mutex_);
+        const auto until = Clock::now() + at_most;
+        auto quiet_at = Clock::now() + quiet;
+        int heard_by = writer_->matched();
+        while (!cancelled_ && Clock::now() < std::min(quiet_at, until)) {
+            changed_.wait_for(lock, std::chrono::milliseconds(5));
+            if (writer_->matched() == heard_by) continue;
+            heard_by = writer_->matched();
+            quiet_at = Clock::now() + quiet;
+        }
+    }
+
+    /// Waits until all that hear requests have what was sent; false where one of them has not yet.
+    bool wait_acknowledged(std::chrono::milliseconds at_most) {
+        const auto whole = std::chrono::duration_cast<std::chrono::seconds>(at_most);
+        const std::chrono::nanoseconds rest = at_most - whole;
+        return writer_->wait_acknowledged(
+            {static_cast<std::int32_t>(whole.count()), static_cast<std::uint32_t>(rest.count())});
+    }
+
     /// Sends `request` (its header is filled in) and waits for the reply.
     Result<Reply> call(Request& request, std::chrono::milliseconds at_most) {
         const auto until = Clock::now() + at_most;

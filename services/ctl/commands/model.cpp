@@ -62,8 +62,12 @@ int model_register(const RegisterOptions& options) {
     const auto reply = call_tracker(options.dds, *request);
     if (!reply) return report(reply.error());
     const auto& result = reply->result().register_model();
-    std::printf("%s %s object %u, from %lld us on\n", name.c_str(),
-                result.already_registered() ? "was already" : "is", result.object_id(),
+    if (result.already_registered()) {
+        std::printf("%s was already object %u; it goes on from where it is\n", name.c_str(),
+                    result.object_id());
+        return exit_success;
+    }
+    std::printf("%s is object %u, from %lld us on\n", name.c_str(), result.object_id(),
                 static_cast<long long>(reply->effective_time_us()));
     return exit_success;
 }

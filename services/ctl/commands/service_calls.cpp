@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "services/ctl/commands/service_calls.hpp"
 
+#include <chrono>
+
 #include "services/common/request_client.hpp"
 #include "services/common/topics.hpp"
 
 namespace pursuit::ctl {
 namespace {
+
+constexpr std::chrono::milliseconds listeners_quiet{200};
+constexpr std::chrono::milliseconds listeners_at_most{600};
 
 template <class Request, class Reply>
 Result<Reply> call(const DdsOptions& options, const char* request_topic, const char* reply_topic,
@@ -15,7 +20,12 @@ Result<Reply> call(const DdsOptions& options, const char* request_topic, const c
     auto client = RequestClient<Request, Reply>::create(**participant, request_topic, reply_topic,
                                                         options.name);
     if (!client) return tl::unexpected(client.error());
+    if ((*client)->wait_matched(options.timeout())) {
+        // A recorder that hears of this process later than the service would miss the request.
+        (*client)->wait_for_listeners(listeners_quiet, listeners_at_most);
+    }
     auto reply = (*client)->call(request, options.timeout());
+    (*client)->wait_acknowledged(listeners_at_most);
     if (!reply) return fail(reply.error().message + " " + where(options));
     if (reply->outcome().code() != v1::STATUS_OK) {
         return fail("refused: " + reply->outcome().message().to_string());

@@ -8,6 +8,7 @@
 #include "services/ctl/recording/cdr.hpp"
 #include "services/recorder/mcap/facts.hpp"
 #include "services/recorder/mcap/reader.hpp"
+#include "services/recorder/replay/recorded_calls.hpp"
 #include "services/sensor/packed_event.hpp"
 
 namespace pursuit::ctl {
@@ -75,8 +76,19 @@ class FirstPass {
             if (auto status = decode_cdr<v1::TrackerStatus>(message.data)) run_.tracker = *status;
         } else if (topic == topic::recorder_status) {
             if (auto status = decode_cdr<v1::RecorderStatus>(message.data)) run_.recorder = *status;
+        } else if (topic == topic::tracker_request) {
+            if (auto request = decode_cdr<v1::TrackerRequest>(message.data)) {
+                calls_.take(std::move(*request));
+            }
+        } else if (topic == topic::tracker_reply) {
+            if (auto reply = decode_cdr<v1::TrackerReply>(message.data)) {
+                calls_.take(std::move(*reply), 0);
+            }
         }
     }
+
+    /// Calls whose replies alone were recorded.
+    [[nodiscard]] std::uint64_t calls_missing() const { return calls_.unasked(); }
 
  private:
     void events(const v1::EventPacket& packet) {
@@ -122,6 +134,7 @@ class FirstPass {
     }
 
     RecordedRun& run_;
+    recorder::RecordedCalls calls_;
     std::size_t most_poses_;
     Sequence packets_;
     std::map<std::uint32_t, Sequence> poses_;
@@ -170,6 +183,7 @@ Result<RecordedRun> read_run(const std::string& path, std::size_t slices, std::i
     auto faults = for_each_message(path, [&](const auto& message) { first.take(message); });
     if (!faults) return tl::unexpected(faults.error());
     run.faults = std::move(*faults);
+    run.calls_missing = first.calls_missing();
     if (const auto left_out = first.poses_left_out(); left_out > 0) {
         run.faults.push_back(path + ": " + std::to_string(left_out) + " poses left out, after " +
                              std::to_string(most_poses));

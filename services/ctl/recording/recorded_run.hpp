@@ -40,6 +40,7 @@ struct RecordedRun {
     std::uint64_t events = 0;
     std::uint64_t packets_missing = 0;  ///< Breaks of the sequence number of the events.
     std::uint64_t poses_missing = 0;    ///< Likewise of the poses, all objects.
+    std::uint64_t calls_missing = 0;    ///< Calls that the tracker obeyed; their replies are there.
     std::optional<std::int64_t> first_t_us, last_t_us;
     std::map<std::int64_t, std::uint64_t> events_per_bin;  ///< By the begin of the bin, µs.
     static constexpr std::int64_t bin_us = 50'000;

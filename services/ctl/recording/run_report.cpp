@@ -122,6 +122,7 @@ void add_counts(Report& report, const RecordedRun& run) {
     counts.push_back({"packets recorded", run.packets, false});
     counts.push_back({"packets missing in the recording", run.packets_missing, true});
     counts.push_back({"poses missing in the recording", run.poses_missing, true});
+    counts.push_back({"calls missing in the recording", run.calls_missing, true});
     counts.push_back({"faults in the recording", run.faults.size(), true});
     if (run.sensor) {
         counts.push_back({"sensor: events published", run.sensor->events_out(), false});
@@ -135,8 +136,11 @@ void add_counts(Report& report, const RecordedRun& run) {
         counts.push_back({"tracker: poses published", run.tracker->poses_out(), false});
         for (const auto& cause : run.tracker->dropped_by()) {
             if (cause.count() == 0) continue;
-            counts.push_back(
-                {"tracker: dropped by " + cause.name().to_string(), cause.count(), true});
+            const std::string name = cause.name().to_string();
+            // Objects that are not followed any more are no lost data.
+            const bool is_of_objects = name.rfind("objects.", 0) == 0;
+            counts.push_back({is_of_objects ? "tracker: " + name : "tracker: dropped by " + name,
+                              cause.count(), !is_of_objects});
         }
     }
     if (run.recorder) {

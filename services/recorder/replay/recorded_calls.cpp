@@ -55,4 +55,13 @@ std::uint64_t RecordedCalls::unanswered() const {
     return count;
 }
 
+std::uint64_t RecordedCalls::unasked() const {
+    std::uint64_t count = 0;
+    for (const auto& [key, exchange] : exchanges_) {
+        const bool is_alone = exchange.reply && !exchange.request;
+        if (is_alone && exchange.reply->outcome().code() == v1::STATUS_OK) ++count;
+    }
+    return count;
+}
+
 }  // namespace pursuit::recorder

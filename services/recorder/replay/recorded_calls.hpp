@@ -34,6 +34,8 @@ class RecordedCalls {
 
     /// Requests whose reply was not heard.
     std::uint64_t unanswered() const;
+    /// Calls that the tracker obeyed, of which the reply alone was heard.
+    std::uint64_t unasked() const;
 
     /// Whether some were left out.
     bool too_many() const { return too_many_; }

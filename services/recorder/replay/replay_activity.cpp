@@ -129,6 +129,12 @@ void ReplayActivity::tell_plan() {
         spdlog::warn("{}: {} requests have no reply in the recording and are left out",
                      configuration_.replay(), plan_.unanswered);
     }
+    if (plan_.unasked > 0) {
+        spdlog::warn(
+            "{}: of {} calls that the tracker obeyed only the replies are in the recording; the "
+            "poses may differ from the recorded ones",
+            configuration_.replay(), plan_.unasked);
+    }
 }
 
 bool ReplayActivity::wait_for_peers() {

@@ -115,6 +115,7 @@ void ReplayOutlet::fill(v1::RecorderStatus& status, const ReplayPlan& plan) cons
     drop("malformed", plan.malformed);
     drop("call_failed", calls_failed_.load());
     drop("unanswered", plan.unanswered);
+    drop("unasked", plan.unasked);
     if (participant_) count_peers(participant_->counts(), status.dropped_by());
 }
 

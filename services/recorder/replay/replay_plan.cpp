@@ -132,6 +132,7 @@ void Pass::take_call(RecordedCall call) {
     before_.take(call);
     if (request.call()._d() == v1::TRACKER_REGISTER_MODEL &&
         reply.result()._d() == v1::TRACKER_REGISTER_MODEL) {
+        if (reply.result().register_model().already_registered()) return;  // it changed nothing
         const auto object_id = reply.result().register_model().object_id();
         request.call().register_model().object_id(object_id);
     }
@@ -202,6 +203,7 @@ ReplayPlan Pass::finish() {
     plan_.gaps = gaps_.gaps();
     plan_.packets_missed = gaps_.missed();
     plan_.unanswered = recorded_.unanswered();
+    plan_.unasked = recorded_.unasked();
     if (too_many_ || recorded_.too_many()) {
         plan_.damage = "more than " + std::to_string(most_planned_calls) +
                        " calls on the tracker; the later ones are left out";

@@ -24,6 +24,7 @@ struct ReplayPlan {
     std::uint64_t packets_missed = 0;     ///< In those gaps.
     std::uint64_t malformed = 0;          ///< Messages that are not of their topic's type.
     std::uint64_t unanswered = 0;         ///< Requests without a reply in the recording.
+    std::uint64_t unasked = 0;            ///< Obeyed calls whose request is not in the recording.
     std::string damage;                   ///< Of the file; empty when it is sound to its end.
 
     std::size_t call_count() const {

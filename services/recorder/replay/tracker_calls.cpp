@@ -59,6 +59,14 @@ Result<void> TrackerCalls::make(const PlannedCall& call, bool begins_stream) {
         reply->outcome().code() != v1::STATUS_OK) {
         return fail(call.name + ": refused: " + reply->outcome().message().to_string());
     }
+    if (reply->result()._d() == v1::TRACKER_REGISTER_MODEL &&
+        reply->result().register_model().already_registered()) {
+        spdlog::warn(
+            "{}: was registered before and goes on from where it is; the poses of a "
+            "tracker that is not fresh differ from the recorded ones",
+            call.name);
+        return {};
+    }
     spdlog::info("{}: done", call.name);
     return {};
 }

@@ -86,6 +86,35 @@ TEST(RunReport, a_fault_of_the_recording_is_a_loss) {
     EXPECT_THAT(verdict(page).text, HasSubstr("1 faults in the recording"));
 }
 
+TEST(RunReport, a_lost_object_is_no_lost_data) {
+    auto run = run_of(1);
+    v1::NamedCount lost;
+    lost.name("objects.lost.gone");
+    lost.count(1);
+    run.tracker.emplace();
+    run.tracker->dropped_by({lost});
+    EXPECT_TRUE(verdict(make_report(run, {}, "")).good) << verdict(make_report(run, {}, "")).text;
+    lost.name("queue_full");
+    run.tracker->dropped_by({lost});
+    EXPECT_THAT(verdict(make_report(run, {}, "")).text, HasSubstr("dropped by queue_full"));
+}
+
+TEST(ReadRun, counts_calls_of_which_the_reply_alone_was_recorded) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.path("run.mcap");
+    pursuit::testing::RecordingBuilder recording(path, {topic::events, topic::tracker_reply});
+    recording.add_packets(1);
+    v1::TrackerReply reply;
+    reply.result().set_occlusion_strategy({});
+    recording.add(topic::tracker_reply, 1, pursuit::testing::serialized(reply));
+    recording.close();
+    const auto run = read_run(path, 0, 0);
+    ASSERT_TRUE(run);
+    EXPECT_EQ(run->calls_missing, 1U);
+    EXPECT_THAT(verdict(make_report(*run, {}, "")).text,
+                HasSubstr("1 calls missing in the recording"));
+}
+
 std::string recording_of_poses(const test::TemporaryFolder& folder, int count) {
     const auto path = folder.path("run.mcap");
     pursuit::testing::RecordingBuilder recording(path, {topic::events, topic::poses});

@@ -51,6 +51,18 @@ TEST(RecordedCalls, leave_out_what_only_asks) {
     EXPECT_EQ(calls.unanswered(), 0U);
 }
 
+TEST(RecordedCalls, are_counted_where_the_tracker_obeyed_and_the_request_was_not_heard) {
+    RecordedCalls calls;
+    auto refused = removed(1);
+    refused.outcome().code(v1::STATUS_NOT_FOUND);
+    calls.take(refused, 0);
+    calls.take(removed(2), 0);
+    calls.take(removed(3), 0);
+    EXPECT_EQ(calls.unasked(), 2U);
+    EXPECT_TRUE(calls.take(removal(3)));
+    EXPECT_EQ(calls.unasked(), 1U);
+}
+
 TEST(RecordedCalls, say_when_there_are_more_than_are_remembered) {
     RecordedCalls calls;
     for (std::uint32_t i = 0; i < most_planned_calls; ++i) calls.take(removal(i));

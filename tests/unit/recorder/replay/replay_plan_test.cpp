@@ -100,6 +100,7 @@ class ReplayPlanOf : public ::testing::Test {
         const auto plan = make_plan(path_, [] { return false; });
         EXPECT_TRUE(plan) << plan.error().message;
         unanswered_ = plan->unanswered;
+        unasked_ = plan->unasked;
         std::vector<std::string> calls;
         for (const auto& [sensor_id, of_sensor] : plan->calls) {
             for (const auto& call : of_sensor) calls.push_back(call.name);
@@ -108,6 +109,7 @@ class ReplayPlanOf : public ::testing::Test {
     }
 
     std::uint64_t unanswered_ = 0;
+    std::uint64_t unasked_ = 0;
 
  private:
     std::uint16_t channel(const char* name) {
@@ -183,6 +185,12 @@ TEST_F(ReplayPlanOf, a_call_without_reply_is_left_out_and_counted) {
     record_request(1);
     EXPECT_TRUE(planned().empty());
     EXPECT_EQ(unanswered_, 1U);
+}
+
+TEST_F(ReplayPlanOf, a_reply_whose_request_is_missing_is_counted) {
+    record_reply(1, 70);
+    EXPECT_TRUE(planned().empty());
+    EXPECT_EQ(unasked_, 1U);
 }
 
 TEST_F(ReplayPlanOf, an_object_is_registered_again_though_another_tracker_gave_its_id_in_a_call) {

@@ -9,11 +9,11 @@
 namespace pursuit::tracker {
 namespace {
 
-constexpr int reach_px = 20;
+constexpr int window_reach_px = 20;
 
 class FiredSlices : public testing::Test {
  protected:
-    FiredSlices() { window_.place({100, 80}, reach_px); }
+    FiredSlices() { window_.place({100, 80}, window_reach_px); }
 
     /// Four far corners, so that what lies between them is where events come from.
     void fire_at_the_rim() {
@@ -68,13 +68,13 @@ TEST_F(FiredSlices, follows_the_object_and_keeps_what_fired_where_it_fired) {
     fire(103, 79);
     window_.close_slice();
     const int left = window_.left();
-    window_.place({104, 80}, reach_px);
+    window_.place({104, 80}, window_reach_px);
     EXPECT_EQ(window_.left(), left) << "it need not move with each step";
-    window_.place({120, 70}, reach_px);
+    window_.place({120, 70}, window_reach_px);
     EXPECT_EQ(window_.left(), left + 20);
     EXPECT_FLOAT_EQ(at(0, 103, 79), 4.0F / 16);
-    window_.place({200, 70}, reach_px);
-    window_.place({100, 80}, reach_px);
+    window_.place({200, 70}, window_reach_px);
+    window_.place({100, 80}, window_reach_px);
     EXPECT_EQ(at(0, 103, 79), 0) << "it was out of sight meanwhile";
 }
 
@@ -97,7 +97,7 @@ TEST_F(FiredSlices, knows_nothing_after_a_restart) {
     EXPECT_EQ(window_.side(), 0U);
     fire(103, 79);  // nobody asked for it
     window_.close_slice();
-    window_.place({100, 80}, reach_px);
+    window_.place({100, 80}, window_reach_px);
     for (std::size_t i = 0; i < FiredWindow::slices; ++i) EXPECT_EQ(at(i, 103, 79), 0) << i;
     EXPECT_FALSE(window_.seen().is_inside(103, 79));
 }

@@ -10,8 +10,8 @@ namespace pursuit::tracker {
 namespace {
 
 constexpr Geometry small_image{200, 160};
-constexpr double within_px = 30;
-const Eigen::Vector2d place_px(100, 80);
+constexpr double noise_extent_px = 30;
+const Eigen::Vector2d noise_place_px(100, 80);
 
 class MostNoise : public testing::Test {
  protected:
@@ -33,8 +33,8 @@ class MostNoise : public testing::Test {
 
 TEST_F(MostNoise, is_the_noise_that_there_is) {
     fire(10);
-    EXPECT_NEAR(most_noise_hz(200'000, 100'000, place_px, within_px, pixels_), 10, 1.5);
-    EXPECT_NEAR(most_noise_hz(200'000, 20'000, place_px, within_px, pixels_), 10, 2.5);
+    EXPECT_NEAR(most_noise_hz(200'000, 100'000, noise_place_px, noise_extent_px, pixels_), 10, 1.5);
+    EXPECT_NEAR(most_noise_hz(200'000, 20'000, noise_place_px, noise_extent_px, pixels_), 10, 2.5);
 }
 
 TEST_F(MostNoise, is_little_however_much_comes_from_a_line) {
@@ -44,12 +44,12 @@ TEST_F(MostNoise, is_little_however_much_comes_from_a_line) {
             pixels_.note({t_us, static_cast<std::uint16_t>(100 + t_us / 50'000), y, 1});
         }
     }
-    EXPECT_LT(most_noise_hz(200'000, 100'000, place_px, within_px, pixels_), 0.5);
+    EXPECT_LT(most_noise_hz(200'000, 100'000, noise_place_px, noise_extent_px, pixels_), 0.5);
 }
 
 TEST_F(MostNoise, is_not_bounded_where_next_to_nothing_of_it_lies_in_the_image) {
     fire(10);
-    EXPECT_TRUE(std::isinf(most_noise_hz(200'000, 100'000, {-80, -70}, within_px, pixels_)));
+    EXPECT_TRUE(std::isinf(most_noise_hz(200'000, 100'000, {-80, -70}, noise_extent_px, pixels_)));
 }
 
 }  // namespace
