@@ -132,6 +132,18 @@ TEST(Aedat2Reader, names_the_byte_and_cause_of_what_is_wrong) {
                   ": pixel (0, 260) is outside 346x260 (x mirrored)");
 }
 
+TEST(Aedat2Reader, a_header_line_that_is_too_long_or_no_text_is_not_taken_for_events) {
+    const std::string line = "# created Wed Oct 12 10:00:00 CEST 2016";
+    const auto error = [&](const std::string& more) {
+        return decode_bytes("a.aedat", aedat2_header + line + more + "\r\n" + aedat2(0, 9)).error;
+    };
+    EXPECT_EQ(error(std::string(4094 - line.size(), 'x')), "");
+    const auto at = "a.aedat: byte " + std::to_string(aedat2_header.size()) + ": ";
+    EXPECT_EQ(error(std::string(4097 - line.size(), 'x')),
+              at + "a header line longer than 4096 bytes");
+    EXPECT_EQ(error("\x01"), at + "a control character in a header line");
+}
+
 // Tables of FlatBuffers, laid out by hand.
 std::string table(const std::string& identifier, unsigned root, const std::string& rest) {
     const auto body = little_endian(std::uint32_t{root}) + identifier + rest;
