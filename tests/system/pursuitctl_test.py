@@ -147,6 +147,29 @@ class Pursuitctl(SystemTest):
         self.offline(*track, "--from", "100", code=1)
         self.assertIn(f"{events}: no event lies in the range of --from and --to", self.ctl_err)
 
+    def test_convert_says_that_no_event_lies_in_the_range_and_leaves_what_was_there(self):
+        events, _ = self.simulate()
+        output = self.path("part.csv")
+        self.write(output, "of an earlier run")
+        for part in (["--from", "100"], ["--from", "100", "--to", "101"]):
+            self.offline("convert", events, output, *part, code=1)
+            self.assertIn(f"{events}: no event lies in the range of --from and --to", self.ctl_err)
+            self.assertEqual(self.read(output), "of an earlier run")
+        self.offline("convert", events, output, "--from", "0.01")
+        self.assertGreater(len(self.read(output).splitlines()), 10)
+        nothing = self.path("nothing.csv")
+        self.write(nothing, "# geometry 64x32\n")
+        self.assertIn("0 events", self.offline("convert", nothing, output))
+
+    def test_info_reads_a_pipe_from_its_first_byte(self):
+        events, _ = self.simulate()
+        pipe = self.path("pipe")
+        os.mkfifo(pipe)
+        expected = self.offline("info", events)
+        with subprocess.Popen(["sh", "-c", 'cat "$0" > "$1"', events, pipe]) as writer:
+            self.assertEqual(self.offline("info", pipe, "--format", "dat"), expected)
+            self.assertEqual(writer.wait(), 0)
+
     def test_the_help_of_model_register_tells_its_estimator_whatever_the_preset(self):
         text = " ".join(self.offline("model", "register", "--help").split())
         self.assertIn("without: kalman, whatever the tracker's preset", text)

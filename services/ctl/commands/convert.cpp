@@ -27,24 +27,36 @@ struct ConvertOptions {
     bool from_zero = false;
 };
 
-/// Copies all events, and exposure measurements where the writer holds them; where the recording
-/// ends in an error, those before it. from_zero: the first of either is at time 0.
-Result<void> copy(sensor::EventReader& recording, sensor::EventWriter& writer, bool from_zero) {
-    std::vector<Event> events(8192);
-    std::vector<Event> exposures(8192);
+/// What is read at a time.
+struct Block {
+    std::vector<Event> events = std::vector<Event>(8192);
+    std::vector<Event> exposures = std::vector<Event>(8192);
+    Result<sensor::EventReader::Batch> batch = sensor::EventReader::Batch{};
+
+    bool ends() const { return !batch || batch->at_end; }
+    bool is_empty() const { return batch->events + batch->exposures == 0; }
+};
+
+/// The next events or measurements, or the end.
+void read_next(sensor::EventReader& recording, Block& block) {
+    do {
+        block.batch = recording.read(block.events, block.exposures);
+    } while (!block.ends() && block.is_empty());
+}
+
+/// Copies `block` and all events after it, and exposure measurements where the writer holds them;
+/// where the recording ends in an error, those before it. from_zero: the first of either is at time
+/// 0.
+Result<void> copy(Block& block, sensor::EventReader& recording, sensor::EventWriter& writer,
+                  bool from_zero) {
     std::optional<std::int64_t> zero_us;
-    const auto shift = [&](std::span<Event> block) {
-        for (auto& event : block) event.t_us -= *zero_us;
+    const auto shift = [&](std::span<Event> part) {
+        for (auto& event : part) event.t_us -= *zero_us;
     };
-    for (;;) {
-        const auto batch = recording.read(events, exposures);
-        if (!batch || batch->at_end) {
-            if (auto ok = writer.close(); !ok) return ok;
-            return batch ? Result<void>{} : tl::unexpected(batch.error());
-        }
-        const auto read_events = std::span(events).first(batch->events);
-        const auto read_exposures = std::span(exposures).first(batch->exposures);
-        if (from_zero && !zero_us && batch->events + batch->exposures > 0) {
+    for (; !block.ends(); read_next(recording, block)) {
+        const auto read_events = std::span(block.events).first(block.batch->events);
+        const auto read_exposures = std::span(block.exposures).first(block.batch->exposures);
+        if (from_zero && !zero_us) {
             zero_us = std::numeric_limits<std::int64_t>::max();
             if (!read_events.empty()) zero_us = read_events.front().t_us;
             if (!read_exposures.empty()) {
@@ -58,6 +70,8 @@ Result<void> copy(sensor::EventReader& recording, sensor::EventWriter& writer, b
         const auto held = writer.holds_exposures() ? read_exposures : std::span<Event>{};
         if (auto ok = writer.write(read_events, held); !ok) return ok;
     }
+    if (auto ok = writer.close(); !ok) return ok;
+    return block.batch ? Result<void>{} : tl::unexpected(block.batch.error());
 }
 
 int convert(const ConvertOptions& options) {
@@ -69,9 +83,19 @@ int convert(const ConvertOptions& options) {
     auto recording = sensor::open_events(options.from, {options.format, *geometry});
     if (!recording) return report(recording.error());
     const auto events = sensor::in_range(std::move(*recording), *range);
+    // Before TO is touched. A recording may have no events, but who names a part of it expects some
+    // there.
+    Block block;
+    read_next(*events, block);
+    const bool is_whole = range->start_us == 0 && range->end_us == 0;
+    if (block.ends() && !is_whole) {
+        return report(block.batch
+                          ? Error{options.from + ": no event lies in the range of --from and --to"}
+                          : block.batch.error());
+    }
     auto writer = sensor::create_events(options.to, events->geometry(), events->has_exposures());
     if (!writer) return report(writer.error());
-    const auto copied = copy(*events, **writer, options.from_zero);
+    const auto copied = copy(block, *events, **writer, options.from_zero);
     std::printf("%" PRIu64 " events\n", (*writer)->events_written());
     if ((*writer)->holds_exposures()) {
         std::printf("%" PRIu64 " exposure measurements\n", (*writer)->exposures_written());

@@ -5,6 +5,7 @@
 #include <array>
 #include <cinttypes>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 #include "services/ctl/commands/report.hpp"
@@ -52,6 +53,10 @@ void print_json(const mcap::Info& info) {
 }  // namespace
 
 bool is_mcap(const std::string& path) {
+    // A pipe gives its bytes once: none of them are for a look. An MCAP is read from its end, which
+    // a pipe has not anyway.
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(path, none)) return false;
     std::array<char, mcap::magic.size()> begin{};
     std::ifstream file(path, std::ios::binary);
     file.read(begin.data(), begin.size());

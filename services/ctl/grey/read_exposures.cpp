@@ -2,6 +2,8 @@
 #include "services/ctl/grey/read_exposures.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <optional>
 #include <vector>
 
@@ -17,12 +19,24 @@ namespace {
 namespace mcap = recorder::mcap;
 
 constexpr std::size_t block_events = 8192;
+constexpr std::int64_t longest_quiet_us = 20'000;
 
 /// Those that happened by `at_us`.
 std::span<const Event> until(std::span<const Event> exposures, std::int64_t at_us) {
     const auto end = std::partition_point(exposures.begin(), exposures.end(),
                                           [&](const Event& e) { return e.t_us <= at_us; });
     return exposures.first(static_cast<std::size_t>(end - exposures.begin()));
+}
+
+/// What came last was at `end_us`: of a later time nothing is known.
+/// A stream that ends quietly says so up to 20 ms earlier (idl/events.idl), and who asks for 3 s of
+/// a recording of 2.9999 s means its end.
+Result<void> check_reaches(const std::string& path, std::int64_t end_us, std::int64_t at_us) {
+    if (at_us - end_us <= longest_quiet_us) return {};
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), ": ends at %.6f s, before %.6f s",
+                  static_cast<double>(end_us) * 1e-6, static_cast<double>(at_us) * 1e-6);
+    return fail(path + text.data());
 }
 
 std::vector<Event> unpacked(const v1::EventPacket& packet) {
@@ -49,6 +63,9 @@ Result<GreyImage> grey_of_events(const std::string& path, const sensor::ReadOpti
         if (batch->at_end) break;
         image.take(until(std::span(exposures).first(batch->exposures), at_us));
     }
+    if (auto ok = check_reaches(path, (*reader)->time_us(), at_us); !ok) {
+        return tl::unexpected(ok.error());
+    }
     return image;
 }
 
@@ -60,6 +77,7 @@ Result<GreyImage> grey_of_mcap(const std::string& path, std::uint32_t sensor_id,
     if (!reader) return tl::unexpected(reader.error());
     std::optional<GreyImage> image;
     std::uint64_t stream_id = 0;
+    std::int64_t end_us = 0;
     for (;;) {
         const auto message = reader->next();
         if (!message || !*message) break;  // what comes before damage is good
@@ -76,10 +94,14 @@ Result<GreyImage> grey_of_mcap(const std::string& path, std::uint32_t sensor_id,
             sensor_id = packet->sensor_id();
         }
         if (packet->stream_id() != stream_id) continue;
-        if (packet->base_time_us() > at_us) break;
-        image->take(until(unpacked(*packet), at_us));
+        end_us = std::max(end_us, packet->base_time_us());
+        if (end_us > at_us) break;
+        const auto exposures = unpacked(*packet);
+        if (!exposures.empty()) end_us = std::max(end_us, exposures.back().t_us);
+        image->take(until(exposures, at_us));
     }
     if (!image) return fail(path + ": holds no exposure measurements");
+    if (auto ok = check_reaches(path, end_us, at_us); !ok) return tl::unexpected(ok.error());
     return std::move(*image);
 }
 

@@ -10,7 +10,8 @@
 namespace pursuit::ctl {
 
 /// The image of a recording of events at sensor time `at_us`: of every measurement that ended by
-/// then. An error where the format has no measurements.
+/// then. An error where the format has no measurements, or the recording ends more than 20 ms
+/// earlier.
 Result<GreyImage> grey_of_events(const std::string& path, const sensor::ReadOptions& options,
                                  std::int64_t at_us);
 

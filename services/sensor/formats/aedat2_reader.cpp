@@ -126,7 +126,12 @@ Result<const Chip*> read_header(ByteWindow& bytes) {
                                    "\" is not read, only 2.0 (and 4)"
                              : "does not begin with \"#!AER-DAT2.0\"");
         }
-        if (line->substr(0, 1) != "#" || !is_text_line(*line)) return chip;
+        if (line->substr(0, 1) != "#") return chip;
+        if (!is_text_line(*line)) {
+            const auto cause = header_line_fault(*line, aedat2_longest_line);
+            if (cause.empty()) return chip;
+            return fault(cause);
+        }
         if (lines == aedat2_most_lines) return fault("more than 1000 header lines");
         constexpr std::string_view key = "# AEChip:";
         if (line->substr(0, key.size()) == key) {

@@ -55,12 +55,12 @@ const aedat4::Header* verified_header(std::vector<std::uint8_t>& bytes) {
 }
 
 /// <dv><node name="outInfo"><node name="0">…: one node a stream, its name the stream's id.
-Result<std::vector<Aedat4Header::EventStream>> event_streams(const char* info) {
+Result<void> read_streams(const char* info, Aedat4Header& header) {
     tinyxml2::XMLDocument document;
     if (document.Parse(info) != tinyxml2::XML_SUCCESS) {
         return fail("the description of the streams is no XML");
     }
-    std::vector<Aedat4Header::EventStream> streams;
+    auto& streams = header.streams;
     const auto* out_info = tinyxml2::XMLConstHandle(document)
                                .FirstChildElement("dv")
                                .FirstChildElement("node")
@@ -69,15 +69,17 @@ Result<std::vector<Aedat4Header::EventStream>> event_streams(const char* info) {
          node != nullptr; node = node->NextSiblingElement("node")) {
         const char* name = node->Attribute("name");
         Aedat4Header::EventStream stream;
-        if (attribute(*node, "typeIdentifier") != "EVTS" || name == nullptr) continue;
-        if (!parse(std::string_view(name), stream.id) || streams.size() == most_streams) continue;
+        if (name == nullptr || !parse(std::string_view(name), stream.id)) continue;
+        header.described.insert(stream.id);
+        if (attribute(*node, "typeIdentifier") != "EVTS" || streams.size() == most_streams)
+            continue;
         stream.geometry = geometry_of(*node);
         streams.push_back(stream);
     }
     if (streams.empty()) return fail("no stream of events is described");
     std::sort(streams.begin(), streams.end(),
               [](const auto& a, const auto& b) { return a.id < b.id; });
-    return streams;
+    return {};
 }
 
 }  // namespace
@@ -131,9 +133,9 @@ Result<Aedat4Header> read_aedat4_header(ByteWindow& bytes) {
     if (stored->info() == nullptr) {
         return fault(aedat4_magic.size(), "the header does not describe its streams");
     }
-    auto streams = event_streams(stored->info()->c_str());
-    if (!streams) return fault(aedat4_magic.size(), streams.error().message);
-    header.streams = std::move(*streams);
+    if (auto ok = read_streams(stored->info()->c_str(), header); !ok) {
+        return fault(aedat4_magic.size(), ok.error().message);
+    }
     bytes.consume(4 + size);
     return header;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct Aedat4Header {
     Compression compression = Compression::none;
     std::int64_t packets_end = -1;     ///< Byte after the packets; -1: the end of the file.
     std::vector<EventStream> streams;  ///< By rising id; one at least.
+    std::set<std::int32_t> described;  ///< The ids of all streams, those without events too.
 };
 
 constexpr std::string_view aedat4_magic = "#!AER-DAT4.0\r\n";

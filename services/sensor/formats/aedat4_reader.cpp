@@ -83,6 +83,11 @@ class Aedat4Reader final : public EventReader {
         }
         const auto stream = load<std::int32_t>(start->data());
         const auto size = load<std::uint32_t>(start->data() + 4);
+        // Not passed over: a damaged id would lose a packet of events without a word.
+        if (!header_.described.contains(stream)) {
+            return fault("a packet of stream " + std::to_string(stream) +
+                         ", which the header does not describe");
+        }
         if (size > most_packet_bytes) {
             return fault("a packet of " + std::to_string(size) + " bytes, at most " +
                          std::to_string(most_packet_bytes) + " are read");

@@ -100,6 +100,12 @@ class CsvReader final : public EventReader {
             if (line->empty()) break;
             const auto text = trimmed(*line);
             if (!text.empty() && !is_remark(text)) {
+                // At the file's end a number may be cut: what is left of it reads as another.
+                const bool may_go_on = line->size() == text.size() && last_goes_on();
+                if (may_go_on) {
+                    done.error = error("the file ends within it: no end of line follows");
+                    break;
+                }
                 if (auto cause = read_event(text, events[done.count])) {
                     done.error = error(*cause);
                     break;
@@ -123,6 +129,12 @@ class CsvReader final : public EventReader {
             return tl::unexpected(error("the line is longer than 1024 bytes"));
         }
         return line;
+    }
+
+    /// Whether a line ends with a number that is used and may have another digit: all but p.
+    bool last_goes_on() const {
+        const auto last = columns_.count - 1;
+        return last == columns_.t || last == columns_.x || last == columns_.y;
     }
 
     Error error(const std::string& cause) const {

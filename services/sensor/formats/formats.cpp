@@ -22,6 +22,7 @@ namespace pursuit::sensor {
 namespace {
 
 constexpr std::size_t head_bytes = 4096;
+constexpr std::string_view mcap_begin = "\x89MCAP";
 
 constexpr Format table[] = {
     {"dat", "DAT, 1 and 2, of ATIS cameras", {".dat"}, looks_like_dat, open_dat, create_dat},
@@ -82,6 +83,9 @@ Result<const Format*> find_format(const std::string& path, std::string_view head
     std::erase_if(candidates, [&](const Format* format) {
         return format->recognises == nullptr || !format->recognises(head);
     });
+    if (candidates.empty() && head.substr(0, mcap_begin.size()) == mcap_begin) {
+        return fail(path + ": is an MCAP recording, of topics: use info or replay");
+    }
     if (candidates.empty()) {
         return fail(path + ": is in no known format (" + names_of(all_formats()) + ")");
     }

@@ -73,7 +73,11 @@ Result<RawHeader> read_raw_header(ByteWindow& bytes) {
         if (first->empty() || first->front() != '%') return header;
         const auto line = bytes.line(raw_longest_line);
         if (!line) return tl::unexpected(line.error());
-        if (!is_text_line(*line)) return header;
+        if (!is_text_line(*line)) {
+            const auto cause = header_line_fault(*line, raw_longest_line);
+            if (cause.empty()) return header;
+            return tl::unexpected(error_at(bytes.name(), bytes.offset(), cause));
+        }
         if (lines == raw_most_lines) {
             return tl::unexpected(
                 error_at(bytes.name(), bytes.offset(), "more than 1000 header lines"));

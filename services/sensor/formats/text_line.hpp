@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <string>
 #include <string_view>
 
 namespace pursuit::sensor {
@@ -37,6 +38,21 @@ inline bool is_text_line(std::string_view line) {
            std::all_of(line.begin(), line.end() - 1, [](unsigned char c) {
                return (c >= ' ' && c != 0x7f) || c == '\t' || c == '\r';
            });
+}
+
+/// What is wrong with a header's line that is no text; empty where it is data that begins like a
+/// line. Words and addresses are not 32 characters of ASCII by chance.
+inline std::string header_line_fault(std::string_view line, std::size_t longest) {
+    constexpr std::size_t no_chance = 32;
+    const auto is_ascii = [](unsigned char c) { return (c >= ' ' && c < 0x7f) || c == '\t'; };
+    const auto begin = line.substr(0, no_chance);
+    if (begin.size() < no_chance || !std::all_of(begin.begin(), begin.end(), is_ascii)) return {};
+    const bool ends = line.back() == '\n';
+    const bool is_text = is_text_line(std::string(line) + (ends ? "" : "\n"));
+    if (!is_text) return "a control character in a header line";
+    return line.size() >= longest
+               ? "a header line longer than " + std::to_string(longest) + " bytes"
+               : "a header line does not end";
 }
 
 /// A line without its end and the blanks before it.

@@ -8,6 +8,25 @@ namespace {
 
 constexpr std::size_t events_per_read = 8192;
 
+/// Tells whether anything came of a source.
+class HeardSource final : public ByteSource {
+ public:
+    HeardSource(std::unique_ptr<ByteSource> source, bool& heard)
+        : source_(std::move(source)), heard_(heard) {}
+
+    const std::string& name() const override { return source_->name(); }
+
+    Result<std::size_t> read(std::span<std::uint8_t> bytes) override {
+        const auto n = source_->read(bytes);
+        if (n && *n > 0) heard_ = true;
+        return n;
+    }
+
+ private:
+    std::unique_ptr<ByteSource> source_;
+    bool& heard_;
+};
+
 }  // namespace
 
 ByteStreamInput::ByteStreamInput(LiveAddress address, ReadOptions format,
@@ -37,10 +56,14 @@ void ByteStreamInput::run(LiveSink& sink, const StopSignal& stop) {
 
 void ByteStreamInput::hear(std::unique_ptr<ByteSource> source, LiveSink& sink,
                            const StopSignal& stop) {
-    auto reader = open_events(std::move(source), format_);
+    bool heard = false;
+    auto reader = open_events(std::make_unique<HeardSource>(std::move(source), heard), format_);
     if (!reader) {
-        // A peer that closes before it has sent anything is one that is not there yet.
-        if (!stop.raised()) sink.waits_for(reader.error().message);
+        if (stop.raised()) return;
+        sink.waits_for(reader.error().message);
+        // A peer that closes before it has sent anything is one that is not there yet; bytes that
+        // make no beginning of a stream are a fault as those further on.
+        if (heard) sink.end(reader.error().message);
         return;
     }
     sink.begin((*reader)->geometry());

@@ -132,6 +132,18 @@ TEST(Aedat2Reader, names_the_byte_and_cause_of_what_is_wrong) {
                   ": pixel (0, 260) is outside 346x260 (x mirrored)");
 }
 
+TEST(Aedat2Reader, a_header_line_that_is_too_long_or_no_text_is_not_taken_for_events) {
+    const std::string line = "# created Wed Oct 12 10:00:00 CEST 2016";
+    const auto error = [&](const std::string& more) {
+        return decode_bytes("a.aedat", aedat2_header + line + more + "\r\n" + aedat2(0, 9)).error;
+    };
+    EXPECT_EQ(error(std::string(4094 - line.size(), 'x')), "");
+    const auto at = "a.aedat: byte " + std::to_string(aedat2_header.size()) + ": ";
+    EXPECT_EQ(error(std::string(4097 - line.size(), 'x')),
+              at + "a header line longer than 4096 bytes");
+    EXPECT_EQ(error("\x01"), at + "a control character in a header line");
+}
+
 // Tables of FlatBuffers, laid out by hand.
 std::string table(const std::string& identifier, unsigned root, const std::string& rest) {
     const auto body = little_endian(std::uint32_t{root}) + identifier + rest;
@@ -253,7 +265,8 @@ TEST(Aedat4Reader, names_the_byte_and_cause_of_what_is_wrong_in_a_header) {
 }
 
 TEST(Aedat4Reader, delivers_the_good_events_before_each_kind_of_bad_packet) {
-    const auto good = file_header(none, xml_of(stream_of(0, "EVTS"))) + framed(0, packet_of(some));
+    const auto good = file_header(none, xml_of(stream_of(0, "EVTS") + stream_of(5, "IMUS"))) +
+                      framed(0, packet_of(some));
     const auto at = "a.aedat4: byte " + std::to_string(good.size()) + ": ";
     const auto late = some[1].t_us;
     for (const auto& [bad, cause] : std::vector<std::pair<std::string, std::string>>{
@@ -275,6 +288,15 @@ TEST(Aedat4Reader, delivers_the_good_events_before_each_kind_of_bad_packet) {
         EXPECT_EQ(all.events, some);
         EXPECT_EQ(all.error, at + cause);
     }
+}
+
+TEST(Aedat4Reader, a_packet_of_a_stream_that_the_header_does_not_describe_is_an_error) {
+    const auto good = file_header(none, xml_of(stream_of(0, "EVTS") + stream_of(1, "FRME"))) +
+                      framed(0, packet_of(some)) + framed(1, "a frame");
+    const auto all = decode4(good + framed(64, packet_of(more)) + framed(0, packet_of(more)));
+    EXPECT_EQ(all.events, some);
+    EXPECT_EQ(all.error, "a.aedat4: byte " + std::to_string(good.size()) +
+                             ": a packet of stream 64, which the header does not describe");
 }
 
 TEST(Aedat4Reader, refuses_damaged_incomplete_and_monstrous_compression) {

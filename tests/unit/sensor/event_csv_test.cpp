@@ -27,7 +27,7 @@ TEST(CsvReader, reads_its_own_header_foreign_ones_and_none) {
     const Events expected = {{5, 63, 31, 1}, {6, 0, 0, 0}};
     for (const std::string text :
          {"# geometry 64x32\nt_us,x,y,p\n5,63,31,1\n6,0,0,0\n",
-          "%geometry:64,32\nx,y,polarity,timestamp\n63,31,1,5\n0,0,0,6",
+          "%geometry:64,32\nx,y,polarity,timestamp\n63,31,1,5\n0,0,0,6\n",
           "#geometry 64x32\r\n\r\n5, 63, 31, 1\r\n# remark\r\n6 ,0 ,0 ,0\r\n",
           "y,t,more,p,x\n# geometry 64x32\n31,5,abc,1,63\n0,6,,0,0\n"}) {
         const auto all = decode_csv(text);
@@ -71,6 +71,30 @@ TEST(CsvReader, names_the_line_of_what_is_wrong_and_keeps_what_was_before) {
         const auto all = decode_csv(csv_header + "5,1,2,1\n" + bad + "\n7,1,1,1\n");
         EXPECT_EQ(all.events, (Events{{5, 1, 2, 1}}));
         EXPECT_EQ(all.error, "a.csv: byte 36: line 4: " + cause);
+    }
+}
+
+TEST(CsvReader, a_last_line_without_its_end_is_whole_only_where_its_last_number_cannot_go_on) {
+    const auto named = [](const std::string& names) { return "# geometry 64x32\n" + names + "\n"; };
+    for (const std::string last : {"5,63,31,1", "5,63,31,1\n"}) {
+        const auto all = decode_csv(csv_header + last);
+        EXPECT_EQ(all.error, "");
+        EXPECT_EQ(all.events, (Events{{5, 63, 31, 1}}));
+    }
+    const auto remarked = decode_csv(named("t_us,x,y,p,more") + "5,63,31,1,ab");
+    EXPECT_EQ(remarked.error, "");
+    EXPECT_EQ(remarked.events, (Events{{5, 63, 31, 1}}));
+    for (const auto& [names, lines] :
+         std::vector<std::pair<std::string, std::string>>{{"x,y,p,t_us", "63,31,1,5\n6,6,0,6"},
+                                                          {"t_us,p,y,x", "5,1,31,63\n6,0,6,6"},
+                                                          {"t_us,p,x,y", "5,1,63,31\n6,0,6,6"}}) {
+        const auto cut = decode_csv(named(names) + lines);
+        EXPECT_EQ(cut.events, (Events{{5, 63, 31, 1}}));
+        EXPECT_EQ(cut.error,
+                  "a.csv: byte 38: line 4: the file ends within it: no end of line follows");
+        const auto whole = decode_csv(named(names) + lines + "\r\n");
+        EXPECT_EQ(whole.error, "");
+        EXPECT_EQ(whole.events, (Events{{5, 63, 31, 1}, {6, 6, 6, 0}}));
     }
 }
 

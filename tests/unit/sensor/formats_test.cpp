@@ -27,6 +27,11 @@ TEST(Formats, are_told_by_extension_and_else_by_content) {
     EXPECT_EQ(format_of("a.xyz", "\x01\x02"), "a.xyz: is in no known format (" + all_names + ")");
 }
 
+TEST(Formats, a_recording_of_topics_is_told_from_what_is_unknown) {
+    EXPECT_EQ(format_of("run.mcap", "\x89MCAP0\r\n"),
+              "run.mcap: is an MCAP recording, of topics: use info or replay");
+}
+
 TEST(Formats, an_unknown_name_is_answered_with_those_there_are) {
     ReadOptions options;
     options.format = "evt9";

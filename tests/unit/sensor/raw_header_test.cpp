@@ -45,6 +45,19 @@ TEST(RawHeader, names_the_byte_and_cause_of_what_is_wrong) {
     EXPECT_THAT(decode_raw(lines).error, HasSubstr("more than 1000 header lines"));
 }
 
+TEST(RawHeader, a_line_that_is_too_long_or_no_text_is_not_taken_for_words) {
+    const std::string name = "% serial_number 00000000-0000-0000-0001";
+    const std::string rest = "\n% end\n" + bytes_of({0x8001, 0x0007});
+    const auto error = [&](const std::string& more) {
+        return decode_raw("% evt 3.0\n" + name + more).error;
+    };
+    EXPECT_EQ(error(std::string(4095 - name.size(), 'x') + rest), "");
+    EXPECT_EQ(error(std::string(4096 - name.size(), 'x') + rest),
+              "a.raw: byte 10: a header line longer than 4096 bytes");
+    EXPECT_EQ(error("\x01" + rest), "a.raw: byte 10: a control character in a header line");
+    EXPECT_EQ(error(""), "a.raw: byte 10: a header line does not end");
+}
+
 TEST(RawHeader, words_that_begin_like_a_line_are_words) {
     // 0x2025: an event at x 37; its bytes are "% ".
     EXPECT_EQ(decode_raw("% evt 3.0\n" + bytes_of({0x8001, 0x0007})).error, "");

@@ -92,6 +92,23 @@ TEST(GreyImage, of_a_file_without_measurements_is_refused) {
                 HasSubstr("a.txt: holds no exposure measurements"));
 }
 
+TEST(GreyImage, of_a_time_after_the_recording_is_refused_with_the_time_that_it_ends) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.path("a.es");
+    auto writer = sensor::create_events(path, {3, 2}, true);
+    ASSERT_TRUE(writer);
+    const std::vector<Event> exposures = {{10, 1, 1, first}, {70, 1, 1, second}};
+    ASSERT_TRUE((*writer)->write({}, exposures));
+    ASSERT_TRUE((*writer)->close());
+    const auto image = grey_of_events(path, {}, 70);
+    ASSERT_TRUE(image) << image.error().message;
+    EXPECT_EQ(image->measured_pixels(), 1U);
+    EXPECT_TRUE(grey_of_events(path, {}, 20'070));
+    EXPECT_FALSE(grey_of_events(path, {}, 20'071));
+    EXPECT_THAT(grey_of_events(path, {}, 99'000'000).error().message,
+                HasSubstr("a.es: ends at 0.000070 s, before 99.000000 s"));
+}
+
 /// What another program rebuilt from the same recording: each pixel drawn as 2x2, one row and one
 /// column of them empty before the image.
 TEST(GreyImage, of_the_real_car_agrees_with_what_another_program_rebuilt) {

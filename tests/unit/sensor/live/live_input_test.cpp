@@ -128,10 +128,10 @@ void write_to(const std::string& fifo, const std::string& bytes) {
     ::close(file);
 }
 
-std::unique_ptr<LiveInput> input_of(const std::string& path) {
+std::unique_ptr<LiveInput> input_of(const std::string& path, const std::string& format = "evt2") {
     disk::SensorConfig config;
     config.set_live(path);
-    config.set_live_format("evt2");
+    config.set_live_format(format);
     config.set_live_geometry("640x480");
     auto input = open_live(config);
     EXPECT_TRUE(input) << input.error().message;
@@ -173,6 +173,36 @@ TEST(ByteStreamInput, counts_events_without_a_time_in_the_bytes_that_make_no_sen
     write_to(fifo, evt2(0, 1, 1).substr(4) + std::string("\xff\xff\xff\x5f"));
     EXPECT_THAT(heard.stream().fault, HasSubstr("byte 4: "));
     EXPECT_EQ(heard.sink.unusable(), 1U);
+}
+
+TEST(ByteStreamInput, bytes_that_make_no_header_are_a_fault) {
+    const test::TemporaryFolder folder;
+    for (const auto& [format, bytes, cause] :
+         std::vector<std::tuple<std::string, std::string, std::string>>{
+             {"es", "no header of Event Stream", "byte 0: "},
+             {"raw", "% Date 1\nx", "byte 9: the header ends without a line"},
+             {"aedat2", "x", "byte 0: does not begin with"},
+             {"aedat4", "x", "byte 0: does not begin with"},
+             {"csv", "a,b\n", "must name the columns"},
+             {"dat", "% Width 30", "byte 0: a header line does not end"}}) {
+        const auto fifo = folder.path(format);
+        ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+        Heard heard(input_of(fifo, format));
+        write_to(fifo, bytes);
+        const auto item = heard.next();
+        EXPECT_EQ(item.kind, Kind::end) << format;
+        EXPECT_THAT(item.fault, HasSubstr(fifo + ": byte "));
+        EXPECT_THAT(item.fault, HasSubstr(cause));
+        EXPECT_EQ(heard.sink.faults(), 1U) << format;
+    }
+}
+
+TEST(ByteStreamInput, a_source_that_ends_before_its_first_byte_is_waited_for_and_no_fault) {
+    Heard heard(input_of("/dev/null"));
+    while (heard.sink.waits_for().find("is empty") == std::string::npos) {
+        std::this_thread::yield();
+    }
+    EXPECT_EQ(heard.sink.faults(), 0U);
 }
 
 TEST(ByteStreamInput, waits_for_a_path_that_is_not_there_yet_and_says_so) {
