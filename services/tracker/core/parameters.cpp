@@ -154,6 +154,11 @@ CallResult<void> set_by_name(std::span<const Parameter<Parameters>> table, Param
                               " is not within " + shown(line->min) + " to " + shown(line->max) +
                               " " + std::string(line->unit));
         }
+        const auto is_same = [&](const NamedValue& other) { return other.name == wanted.name; };
+        if (std::count_if(values.begin(), values.end(), is_same) > 1) {
+            return refuse(CallStatus::invalid_argument,
+                          "parameter '" + wanted.name + "': given twice");
+        }
         changed.*(line->member) = wanted.value;
     }
     parameters = changed;

@@ -51,6 +51,16 @@ TEST(Parameters, are_set_and_listed_by_name) {
     EXPECT_THAT(values(parameters), testing::Contains(NamedValue{"gate_px", 7.5}));
 }
 
+TEST(Parameters, given_twice_are_refused_and_set_nothing) {
+    ObjectParameters parameters;
+    const std::vector<NamedValue> wanted{{"gate_px", 3}, {"gate_px", 7}};
+    const auto result = set(parameters, wanted);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().status, CallStatus::invalid_argument);
+    EXPECT_THAT(result.error().message, HasSubstr("'gate_px': given twice"));
+    EXPECT_EQ(parameters, ObjectParameters());
+}
+
 TEST(Parameters, name_field_and_bound_on_a_refusal_and_set_nothing) {
     for (const double bad : {-1.0, 1e9, std::nan("")}) {
         ObjectParameters parameters;
