@@ -61,6 +61,11 @@ Result<Tracker> configured_tracker(const disk::TrackerConfig& config, std::uint3
     std::vector<NamedValue> of_strategy;
     for (int i = 0; i < config.parameter_size(); ++i) {
         const NamedValue value{config.parameter(i).name(), config.parameter(i).value()};
+        for (int before = 0; before < i; ++before) {
+            if (config.parameter(before).name() != value.name) continue;
+            return fail_field("parameter[" + std::to_string(i) + "]",
+                              ": parameter '" + value.name + "': given twice");
+        }
         const std::span one(&value, 1);
         CallResult<void> good;
         if (is_of_strategies(value.name)) {

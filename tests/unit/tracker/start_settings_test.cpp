@@ -32,6 +32,11 @@ TEST(ConfiguredTracker, names_the_field_that_it_cannot_take) {
     add(std::string(strategy_parameter_table().front().name), -1e9);
     EXPECT_EQ(error_of(config).field, "parameter[1]");
     config.clear_parameter();
+    add("gate_px", 3);
+    add("gate_px", 7);
+    EXPECT_EQ(error_of(config).field, "parameter[1]");
+    EXPECT_THAT(error_of(config).message, HasSubstr("given twice"));
+    config.clear_parameter();
     config.set_strategy("no_such");
     EXPECT_EQ(error_of(config).field, "strategy");
     config.set_preset("no_such");

@@ -111,7 +111,12 @@ TEST(ReadRun, counts_calls_of_which_the_reply_alone_was_recorded) {
     const auto run = read_run(path, 0, 0);
     ASSERT_TRUE(run);
     EXPECT_EQ(run->calls_missing, 1U);
-    EXPECT_THAT(verdict(make_report(*run, {}, "")).text,
+}
+
+TEST(RunReport, a_call_that_is_not_in_the_recording_is_a_loss) {
+    auto run = run_of(1);
+    run.calls_missing = 1;
+    EXPECT_THAT(verdict(make_report(run, {}, "")).text,
                 HasSubstr("1 calls missing in the recording"));
 }
 
