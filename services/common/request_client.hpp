@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -50,36 +51,10 @@ class RequestClient {
     /// How many readers hear the requests: services, and recorders of them.
     int heard_by() const { return writer_->matched(); }
 
-    /// Waits until nobody new has begun to hear requests for `quiet`, `at_most` in all: recorders,
-    /// which what was sent before they hear never reaches.
-    void wait_for_listeners(std::chrono::milliseconds quiet, std::chrono::milliseconds at_most) {
-        std::unique_lock lock(mutex_);
-        const auto until = Clock::now() + at_most;
-        auto quiet_at = Clock::now() + quiet;
-        int heard_by = writer_->matched();
-        while (!cancelled_ && Clock::now() < std::min(quiet_at, until)) {
-            changed_.wait_for(lock, std::chrono::milliseconds(5));
-            if (writer_->matched() == heard_by) continue;
-            heard_by = writer_->matched();
-            quiet_at = Clock::now() + quiet;
-        }
-    }
-
-    /// Waits until all that hear requests have what was sent; false where one of them has not yet.
-    bool wait_acknowledged(std::chrono::milliseconds at_most) {
-        const auto whole = std::chrono::duration_cast<std::chrono::seconds>(at_most);
-        const std::chrono::nanoseconds rest = at_most - whole;
-        return writer_->wait_acknowledged(
-            {static_cast<std::int32_t>(whole.count()), static_cast<std::uint32_t>(rest.count())});
-    }
-
     /// Sends `request` (its header is filled in) and waits for the reply.
     Result<Reply> call(Request& request, std::chrono::milliseconds at_most) {
         const auto until = Clock::now() + at_most;
-        if (!wait_matched(at_most)) {
-            return fail("no service answers on " + topic_ + " within " +
-                        std::to_string(at_most.count()) + " ms");
-        }
+        if (!wait_matched(at_most)) return nobody_answers(at_most);
         std::unique_lock lock(mutex_);
         const auto id = pursuit::request_id(writer_->guid(), ++sequence_);
         request.header().request_id(id);
@@ -111,6 +86,20 @@ class RequestClient {
         return std::move(*reply);
     }
 
+    /// As call(), by a process that comes, calls and goes: also recorders that hear of it later
+    /// than the service does have the request. It is sent when nobody new has begun to hear for
+    /// `quiet`; `on_unheard` is told when one of those has not acknowledged it `quiet` after the
+    /// reply.
+    Result<Reply> call_heard_by_all(Request& request, std::chrono::milliseconds at_most,
+                                    std::chrono::milliseconds quiet,
+                                    const std::function<void()>& on_unheard) {
+        if (!wait_matched(at_most)) return nobody_answers(at_most);
+        wait_for_listeners(quiet, at_most);
+        auto reply = call(request, at_most);
+        if (reply && !wait_acknowledged(quiet)) on_unheard();
+        return reply;
+    }
+
     /// Ends every call that waits, now and from now on: the process is to end.
     void cancel() {
         const std::scoped_lock lock(mutex_);
@@ -124,6 +113,33 @@ class RequestClient {
 
     RequestClient(std::string instance, std::string topic)
         : instance_(std::move(instance)), topic_(std::move(topic)) {}
+
+    tl::unexpected<Error> nobody_answers(std::chrono::milliseconds at_most) const {
+        return fail("no service answers on " + topic_ + " within " +
+                    std::to_string(at_most.count()) + " ms");
+    }
+
+    /// Until nobody new has begun to hear requests for `quiet`, `at_most` in all.
+    void wait_for_listeners(std::chrono::milliseconds quiet, std::chrono::milliseconds at_most) {
+        std::unique_lock lock(mutex_);
+        const auto until = Clock::now() + at_most;
+        auto quiet_at = Clock::now() + quiet;
+        int listeners = heard_by();
+        while (!cancelled_ && Clock::now() < std::min(quiet_at, until)) {
+            changed_.wait_for(lock, std::chrono::milliseconds(5));
+            if (heard_by() == listeners) continue;
+            listeners = heard_by();
+            quiet_at = Clock::now() + quiet;
+        }
+    }
+
+    /// Whether all that hear requests have what was sent.
+    bool wait_acknowledged(std::chrono::milliseconds at_most) {
+        const auto whole = std::chrono::duration_cast<std::chrono::seconds>(at_most);
+        const std::chrono::nanoseconds rest = at_most - whole;
+        return writer_->wait_acknowledged(
+            {static_cast<std::int32_t>(whole.count()), static_cast<std::uint32_t>(rest.count())});
+    }
 
     void receive(Reply& reply) {
         const std::scoped_lock lock(mutex_);

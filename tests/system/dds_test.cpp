@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <functional>
+#include <future>
 #include <thread>
 
 #include "services/common/health.hpp"
@@ -230,6 +231,23 @@ TEST_F(Requests, are_answered_to_the_caller) {
     ASSERT_TRUE(reply) << reply.error().message;
     EXPECT_EQ(reply->outcome().message().to_string(), "heard");
     EXPECT_EQ(reply->header().instance_name().to_string(), "front");
+}
+
+TEST_F(Requests, of_one_who_goes_wait_for_those_that_begin_to_hear_later_than_the_service) {
+    const auto caller = client("");
+    bool is_unheard = false;
+    auto reply = std::async(std::launch::async, [&] {
+        v1::SensorRequest request;
+        return caller->call_heard_by_all(request, 20s, 3s, [&] { is_unheard = true; });
+    });
+    ASSERT_TRUE(eventually([&] { return caller->heard_by() == 1; }));
+    std::atomic<int> recorded{0};
+    const auto recorder = Reader<v1::SensorRequest>::create(*one_, topic::sensor_request,
+                                                            [&](auto&, auto&) { ++recorded; });
+    ASSERT_TRUE(recorder);
+    EXPECT_TRUE(reply.get());
+    EXPECT_TRUE(eventually([&] { return recorded == 1; }));
+    EXPECT_FALSE(is_unheard);
 }
 
 TEST_F(Requests, for_another_instance_are_not_heard) {

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 #include "services/common/reader.hpp"
@@ -98,8 +97,9 @@ TEST_F(PoseTracks, have_every_update_of_an_object_in_the_order_of_time_and_are_n
     ASSERT_TRUE(eventually([&] {
         return tracks_->matched() == 1 && poses_->matched() == 1 && client_->heard_by() == 1;
     })) << tracker->log();
-    // The tracker hears of a reader a little later than the reader of it, and tells nothing before.
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    // A reader hears of a writer before that hears of it. The tracker hears of these three in the
+    // order in which they were made: who has its reply has its poses.
+    ASSERT_TRUE(eventually([&] { return status().health().state() == v1::SERVICE_WAITING; }));
     const auto sensor = service("pursuit-sensor", {"recording=" + folder_.path("star.dat"),
                                                    "rate=0.25", "wait_for_subscribers=1"});
     ASSERT_EQ(sensor->wait(), 0) << sensor->log();

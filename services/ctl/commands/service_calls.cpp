@@ -2,15 +2,24 @@
 #include "services/ctl/commands/service_calls.hpp"
 
 #include <chrono>
+#include <cstdio>
 
 #include "services/common/request_client.hpp"
 #include "services/common/topics.hpp"
+#include "services/common/tracker_call_kinds.hpp"
 
 namespace pursuit::ctl {
 namespace {
 
-constexpr std::chrono::milliseconds listeners_quiet{200};
-constexpr std::chrono::milliseconds listeners_at_most{600};
+// Who missed the first word of this process hears the next one, 0.25 s later (Participant).
+constexpr std::chrono::milliseconds listeners_quiet{350};
+
+/// What only asks need not be recorded, nor what a replay does not do again.
+bool is_to_be_recorded(const v1::TrackerRequest& request) {
+    return changes_tracker(request.call()._d());
+}
+bool is_to_be_recorded(const v1::SensorRequest&) { return false; }
+bool is_to_be_recorded(const v1::RecorderRequest&) { return false; }
 
 template <class Request, class Reply>
 Result<Reply> call(const DdsOptions& options, const char* request_topic, const char* reply_topic,
@@ -20,12 +29,14 @@ Result<Reply> call(const DdsOptions& options, const char* request_topic, const c
     auto client = RequestClient<Request, Reply>::create(**participant, request_topic, reply_topic,
                                                         options.name);
     if (!client) return tl::unexpected(client.error());
-    if ((*client)->wait_matched(options.timeout())) {
-        // A recorder that hears of this process later than the service would miss the request.
-        (*client)->wait_for_listeners(listeners_quiet, listeners_at_most);
-    }
-    auto reply = (*client)->call(request, options.timeout());
-    (*client)->wait_acknowledged(listeners_at_most);
+    const auto tell_unheard = [&] {
+        std::fprintf(stderr, "pursuitctl: a recorder may have missed this request on %s\n",
+                     request_topic);
+    };
+    auto reply = is_to_be_recorded(request)
+                     ? (*client)->call_heard_by_all(request, options.timeout(), listeners_quiet,
+                                                    tell_unheard)
+                     : (*client)->call(request, options.timeout());
     if (!reply) return fail(reply.error().message + " " + where(options));
     if (reply->outcome().code() != v1::STATUS_OK) {
         return fail("refused: " + reply->outcome().message().to_string());

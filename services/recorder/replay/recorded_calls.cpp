@@ -7,6 +7,15 @@
 #include "services/recorder/replay/planned_call.hpp"
 
 namespace pursuit::recorder {
+namespace {
+
+bool changed_something(const v1::TrackerReply& reply) {
+    if (reply.outcome().code() != v1::STATUS_OK) return false;
+    return reply.result()._d() != v1::TRACKER_REGISTER_MODEL ||
+           !reply.result().register_model().already_registered();
+}
+
+}  // namespace
 
 std::optional<RecordedCall> RecordedCalls::take(v1::TrackerRequest request) {
     if (!changes_tracker(request.call()._d())) return std::nullopt;
@@ -58,8 +67,7 @@ std::uint64_t RecordedCalls::unanswered() const {
 std::uint64_t RecordedCalls::unasked() const {
     std::uint64_t count = 0;
     for (const auto& [key, exchange] : exchanges_) {
-        const bool is_alone = exchange.reply && !exchange.request;
-        if (is_alone && exchange.reply->outcome().code() == v1::STATUS_OK) ++count;
+        if (exchange.reply && !exchange.request && changed_something(*exchange.reply)) ++count;
     }
     return count;
 }

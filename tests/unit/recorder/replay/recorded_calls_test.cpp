@@ -56,6 +56,13 @@ TEST(RecordedCalls, are_counted_where_the_tracker_obeyed_and_the_request_was_not
     auto refused = removed(1);
     refused.outcome().code(v1::STATUS_NOT_FOUND);
     calls.take(refused, 0);
+    v1::TrackerReply known;
+    known.header().related_request_id().sequence_low(4);
+    v1::RegisterModelResult was_there;
+    was_there.already_registered(true);
+    known.result().register_model(was_there);
+    calls.take(known, 0);
+    EXPECT_EQ(calls.unasked(), 0U);
     calls.take(removed(2), 0);
     calls.take(removed(3), 0);
     EXPECT_EQ(calls.unasked(), 2U);
